@@ -9,13 +9,6 @@
 
 namespace suffuse {
 
-/// The two sides of a piece of a wall; its flux is conductance * (p_face - p_partner), m3/s.
-struct LeakyFace {
-  int face = -1;  ///< the smaller number
-  int partner = -1;
-  double conductance = 0.0;  ///< m3/(s Pa)
-};
-
 /// Leaky faces of the scene's walls with a conductance, ascending.
 template <int Dim>
 std::vector<LeakyFace> leaky_faces(const Case<Dim>& c, const Grid<Dim>& grid);

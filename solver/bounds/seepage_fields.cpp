@@ -1,7 +1,6 @@
 #include "bounds/seepage_fields.hpp"
 
 #include "grid/face_flux.hpp"
-#include "ranks/exact_sum.hpp"
 
 namespace suffuse {
 namespace {

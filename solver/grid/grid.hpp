@@ -16,6 +16,13 @@
 
 namespace suffuse {
 
+/// The two sides of a piece of a wall; its flux is conductance * (p_face - p_partner), m3/s.
+struct LeakyFace {
+  int face = -1;  ///< the smaller number
+  int partner = -1;
+  double conductance = 0.0;  ///< m3/(s Pa)
+};
+
 template <int Dim>
 struct Grid {
   /// The grid of a program that is alone and owns all of the mesh.

@@ -202,7 +202,8 @@ ImplicitMixed<Dim>::~ImplicitMixed() = default;
 
 template <int Dim>
 void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
-  if (parts_ && parts_->faces.fit(conditions)) return;
+  const bool fit = parts_ && parts_->faces.fit(conditions);
+  if (smallest_of_all(model_.grid.ranks(), fit ? 1.0 : 0.0) > 0.0) return;
   earlier_counts_ = counts();
   parts_ = std::make_unique<Parts>(model_, conditions);
   last_steady_.face_pressure.assign(conditions.size(), 0.0);
@@ -251,8 +252,12 @@ template <int Dim>
 void ImplicitMixed<Dim>::archive(StateArchive& archive,
                                  const std::vector<FaceCondition>& conditions) {
   set_up(conditions);
-  archive(parts_->faces, parts_->system, parts_->faces.correction(), earlier_counts_,
-          parts_->guess.rise_rate, parts_->guess.flux_scale, last_steady_, last_steady_flux_);
+  std::vector<double> followed = parts_->faces.correction().followed();
+  archive(parts_->faces, parts_->system, on_elements(followed), earlier_counts_,
+          on_faces(parts_->guess.rise_rate), parts_->guess.flux_scale, last_steady_,
+          on_elements(last_steady_flux_));
+  // The faces may have set up another correction.
+  if (archive.restores()) parts_->faces.correction().restore(std::move(followed));
 }
 
 template class ImplicitMixed<2>;

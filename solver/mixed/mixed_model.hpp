@@ -30,7 +30,9 @@ struct MixedState {
   /// Volume of air in the share of each side of an element, m3; empty where all soil is saturated.
   ElementField<Dim> air = {};
 
-  void archive(auto& archive) { archive(face_pressure, velocity, air); }
+  void archive(auto& archive) {
+    archive(on_faces(face_pressure), on_elements(velocity), on_elements(air));
+  }
 };
 
 /// The conditions and coefficients of the flow at one moment.

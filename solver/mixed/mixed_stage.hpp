@@ -83,10 +83,13 @@ struct MixedStage {
   }
   /// The largest value of elements or faces; 0 where none is larger.
   [[nodiscard]] double largest_of_elements(const auto& value) const {
-    return largest_of(model.grid.mesh.element_count(), model.settings.threads, 0.0, value);
+    const int elements = model.grid.mesh.element_count();
+    return largest_of_all(model.grid.ranks(),
+                          largest_of(elements, model.settings.threads, 0.0, value));
   }
   [[nodiscard]] double largest_of_faces(const auto& value) const {
-    return largest_of(model.grid.face_count(), model.settings.threads, 0.0, value);
+    return largest_of_all(model.grid.ranks(),
+                          largest_of(model.grid.face_count(), model.settings.threads, 0.0, value));
   }
   /// Whether the equations depend on the pressure itself, through retention or seepage faces.
   [[nodiscard]] bool is_nonlinear() const { return retains || !faces.switching().empty(); }
@@ -197,14 +200,16 @@ struct MixedStage {
       if (expected_gradient.empty()) return;
       expected_gradient[e] = model.pressure_gradient(e, base.face_pressure, forcing.expected_rise);
     });
-    for (std::size_t e = 0; e < resistance.size(); ++e) {
-      if (resistance[e] > 0.0 && std::isfinite(resistance[e])) continue;
-      std::ostringstream text;
-      text << "the liquid must meet resistance everywhere; "
-           << element_text(model.grid, static_cast<int>(e)) << " has " << resistance[e]
-           << " kg/(m3 s) per flux";
-      throw NumericalError(text.str());
-    }
+    together(model.grid.ranks(), [&] {
+      for (std::size_t e = 0; e < resistance.size(); ++e) {
+        if (resistance[e] > 0.0 && std::isfinite(resistance[e])) continue;
+        std::ostringstream text;
+        text << "the liquid must meet resistance everywhere; "
+             << element_text(model.grid, static_cast<int>(e)) << " has " << resistance[e]
+             << " kg/(m3 s) per flux";
+        throw NumericalError(text.str());
+      }
+    });
   }
   /// Bounds the conductance of walls by 1e6 times that of their elements: such a wall is no
   /// obstacle, and a larger value would drown the elements' conductances in round-off.

@@ -2,8 +2,12 @@
 
 /// The linear systems for the pressures of a stage.
 
+#include <optional>
+#include <vector>
+
 #include "linear/lagged_preconditioner.hpp"
 #include "linear/newton_system.hpp"
+#include "linear/shared_system.hpp"
 #include "mixed/mixed_stage.hpp"
 
 namespace suffuse {
@@ -20,12 +24,15 @@ class PressureSystem {
         known_rise_(kinds.size()),
         load_(matrix_.unknowns()),
         guess_(matrix_.unknowns()),
-        tolerance_(matrix_.unknowns()) {}
+        tolerance_(matrix_.unknowns()) {
+    if (model.grid.ranks().count() > 1) share_unknowns(model.grid);
+  }
 
   [[nodiscard]] MixedMatrix<Dim>& matrix() { return matrix_; }
   [[nodiscard]] NewtonSystem& newton() { return newton_; }
   [[nodiscard]] SolveCounts counts() const {
     SolveCounts result = solver_.counts();
+    if (shared_) result.iterations += shared_->iterations();
     return result += newton_.counts();
   }
   /// Assembles the matrix for the law of the stage.
@@ -38,9 +45,10 @@ class PressureSystem {
     assemble(stage, {});
     find_load(stage);
     for (const int e : stage.faces.correction().sealed_root()) {
-      if (!stage.stores(e)) matrix_.hold_level(e);
+      if (e >= 0 && !stage.stores(e)) matrix_.hold_level(e);
     }
-    const Eigen::VectorXd solution = solver_.solve({matrix_.values(), load_, guess_, tolerance_});
+    const SymmetricSystem system{matrix_.values(), load_, guess_, tolerance_};
+    const Eigen::VectorXd solution = shared_ ? shared_->solve(system) : solver_.solve(system);
     stage.for_each_face([&](int f) {
       if (!stage.faces.is_held(f)) stage.pressure.rise[f] = solution[matrix_.unknown(f)];
     });
@@ -116,7 +124,30 @@ class PressureSystem {
   }
 
  private:
+  /// Numbers the unknowns of all ranks: each numbers those of its own faces, one after the other.
+  void share_unknowns(const Grid<Dim>& grid) {
+    int first = 0;
+    int last = 0;
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (matrix_.unknown(f) < 0) continue;
+      if (f < *grid.own_faces().begin()) ++first;
+      if (f < *grid.own_faces().end()) ++last;
+    }
+    const long before = grid.ranks().before(last - first);
+    std::vector<long> of_face(grid.face_count(), -1);
+    for (const int f : grid.own_faces()) {
+      if (matrix_.unknown(f) >= 0) of_face[f] = before + matrix_.unknown(f) - first;
+    }
+    grid.face_rows().exchange(of_face);
+    std::vector<long> numbers;
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (matrix_.unknown(f) >= 0) numbers.push_back(of_face[f]);
+    }
+    shared_.emplace(grid.ranks(), numbers, first, last);
+  }
+
   MixedMatrix<Dim> matrix_;
+  std::optional<SharedSystem> shared_;  ///< on several ranks, in the place of `solver_`
   LaggedPreconditioner solver_;
   NewtonSystem newton_;
   // Members, so that stages do not allocate them.

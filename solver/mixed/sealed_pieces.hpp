@@ -6,6 +6,17 @@
 
 namespace suffuse {
 
+/// Whether the first element of each sealed piece stores liquid as its pressure rises.
+template <int Dim>
+std::vector<char> pieces_that_store(const MixedStage<Dim>& stage) {
+  std::vector<double> stores;
+  for (const int e : stage.faces.correction().sealed_root()) {
+    stores.push_back(e >= 0 && stage.stores(e) ? 1.0 : 0.0);
+  }
+  stage.model.grid.ranks().largest(stores);
+  return {stores.begin(), stores.end()};
+}
+
 /// Surplus of inflow and sources of each sealed piece, m3/s. Without storage these must cancel:
 /// round-off is spread over the piece. Throws NumericalError if the surplus is larger.
 template <int Dim>
@@ -16,22 +27,27 @@ std::vector<double> balance_sealed_pieces(MixedStage<Dim>& stage) {
   if (surplus.empty()) return surplus;
 
   const std::vector<int>& piece = correction.sealed_piece();
-  std::vector<double> gross(surplus.size(), 0.0);
-  std::vector<double> volume(surplus.size(), 0.0);
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+  std::vector<ExactSum> surplus_sum(surplus.size());
+  std::vector<ExactSum> gross_sum(surplus.size());
+  std::vector<ExactSum> volume_sum(surplus.size());
+  for (const int e : grid.own_elements()) {
     if (piece[e] < 0) continue;
-    surplus[piece[e]] += stage.net_source[e];
-    gross[piece[e]] += std::abs(stage.net_source[e]);
-    volume[piece[e]] += grid.volume[e];
+    surplus_sum[piece[e]].add(stage.net_source[e]);
+    gross_sum[piece[e]].add(std::abs(stage.net_source[e]));
+    volume_sum[piece[e]].add(grid.volume[e]);
   }
-  for (int f = 0; f < grid.face_count(); ++f) {
+  for (const int f : grid.own_faces()) {
     const int p = piece[grid.face_left[f]];
     if (p < 0 || !grid.is_outer(f)) continue;
-    surplus[p] += stage.inflow(f);
-    gross[p] += std::abs(stage.inflow(f));
+    surplus_sum[p].add(stage.inflow(f));
+    gross_sum[p].add(std::abs(stage.inflow(f)));
   }
+  surplus = values_of_all(grid.ranks(), surplus_sum);
+  const std::vector<double> gross = values_of_all(grid.ranks(), gross_sum);
+  const std::vector<double> volume = values_of_all(grid.ranks(), volume_sum);
+  const std::vector<char> stores = pieces_that_store(stage);
   for (std::size_t p = 0; p < surplus.size(); ++p) {
-    if (stage.stores(correction.sealed_root()[p])) continue;
+    if (stores[p] != 0) continue;
     if (!(std::abs(surplus[p]) <= 1e-9 * gross[p])) {
       std::ostringstream text;
       text.precision(10);
@@ -42,7 +58,7 @@ std::vector<double> balance_sealed_pieces(MixedStage<Dim>& stage) {
     }
   }
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    if (piece[e] >= 0 && !stage.stores(correction.sealed_root()[piece[e]])) {
+    if (piece[e] >= 0 && stores[piece[e]] == 0) {
       stage.net_source[e] -= surplus[piece[e]] * grid.volume[e] / volume[piece[e]];
     }
   }
@@ -57,21 +73,29 @@ void level_sealed_pieces(const MixedStage<Dim>& stage, const std::vector<double>
   if (surplus.empty()) return;
   const Grid<Dim>& grid = stage.model.grid;
   const std::vector<int>& piece = stage.faces.correction().sealed_piece();
-  std::vector<double> stored(surplus.size(), 0.0);
-  std::vector<double> capacity(surplus.size(), 0.0);
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+  std::vector<ExactSum> stored_sum(surplus.size());
+  std::vector<ExactSum> capacity_sum(surplus.size());
+  std::vector<ExactSum> held_sum(surplus.size());  // the pressure at one face
+  for (const int e : grid.own_elements()) {
     if (piece[e] < 0) continue;
-    for (const int f : grid.element_face[e]) stored[piece[e]] += stage.storage[e] * rise[f];
-    capacity[piece[e]] += (Dim + 1) * stage.storage[e];
+    for (const int f : grid.element_face[e]) stored_sum[piece[e]].add(stage.storage[e] * rise[f]);
+    capacity_sum[piece[e]].add((Dim + 1) * stage.storage[e]);
     if (stage.mean_storage.empty()) continue;
-    stored[piece[e]] += stage.stored_in_mean(e, [&](int f) { return rise[f]; });
-    capacity[piece[e]] += stage.mean_storage[e];
+    stored_sum[piece[e]].add(stage.stored_in_mean(e, [&](int f) { return rise[f]; }));
+    capacity_sum[piece[e]].add(stage.mean_storage[e]);
   }
+  for (std::size_t p = 0; p < surplus.size(); ++p) {
+    const int root = stage.faces.correction().sealed_root()[p];
+    if (root < 0) continue;  // on another rank
+    const int held = grid.element_face[root][0];
+    held_sum[p].add(stage.base.face_pressure[held] + rise[held]);
+  }
+  const std::vector<double> stored = values_of_all(grid.ranks(), stored_sum);
+  const std::vector<double> capacity = values_of_all(grid.ranks(), capacity_sum);
+  const std::vector<double> pressure = values_of_all(grid.ranks(), held_sum);
   std::vector<double> shift(surplus.size());
   for (std::size_t p = 0; p < shift.size(); ++p) {
-    const int held = grid.element_face[stage.faces.correction().sealed_root()[p]][0];
-    shift[p] = capacity[p] > 0.0 ? (surplus[p] - stored[p]) / capacity[p]
-                                 : -(stage.base.face_pressure[held] + rise[held]);
+    shift[p] = capacity[p] > 0.0 ? (surplus[p] - stored[p]) / capacity[p] : -pressure[p];
   }
   for (int f = 0; f < grid.face_count(); ++f) {
     const int p = piece[grid.face_left[f]];

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "mixed/flux_correction.hpp"
+#include "grid/flux_correction.hpp"
 #include "mixed/mixed_model.hpp"
 
 namespace suffuse {
@@ -84,7 +84,7 @@ class StageFaces {
 
   /// Without the flux correction, which archives itself.
   void archive(auto& archive) {
-    archive(open_, corrected_);
+    archive(on_faces(open_), on_faces(corrected_));
     if (archive.restores() && !switching_.empty()) set_up_correction();
   }
 
@@ -101,13 +101,7 @@ class StageFaces {
     }
     held_[f] = resolved.kind == FaceKind::pressure ? 1 : 0;
   }
-  void set_up_correction() {
-    std::vector<FaceCondition> conditions(corrected_.size(), {.kind = FaceKind::wall});
-    for (std::size_t f = 0; f < conditions.size(); ++f) {
-      if (corrected_[f] != 0) conditions[f].kind = FaceKind::pressure;
-    }
-    correction_.emplace(model_.grid, conditions, model_.walls);
-  }
+  void set_up_correction() { correction_.emplace(model_.grid, corrected_, model_.walls); }
 
   const MixedModel<Dim>& model_;
   std::vector<FaceKind> kinds_;

@@ -40,7 +40,7 @@ fs::path shared_solver() {
 [[noreturn]] void become(std::vector<std::string> words) {
   // A terminal's Ctrl-C goes to all of its group: mpirun would kill its processes.
   ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGUSR1);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   std::signal(SIGUSR1, SIG_IGN);  // until mpirun listens
   const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (nothing >= 0) ::dup2(nothing, STDIN_FILENO);

@@ -13,12 +13,11 @@
 #include <string>
 #include <thread>
 
+#include "ranks/petsc_check.hpp"
+#include "ranks/petsc_factor.hpp"
+
 namespace suffuse {
 namespace {
-
-void check(int error, const char* call) {
-  if (error != 0) throw std::runtime_error(std::string(call) + " failed: " + std::to_string(error));
-}
 
 /// Digits of an exact sum, as they are sent.
 constexpr int sum_size = sizeof(ExactSum);
@@ -34,8 +33,9 @@ void add_sums(void* in, void* in_out, int* count, MPI_Datatype* /*type*/) {
 class ValueType {
  public:
   explicit ValueType(std::size_t bytes) {
-    check(MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &type_), "MPI_Type_contiguous");
-    check(MPI_Type_commit(&type_), "MPI_Type_commit");
+    petsc_check(MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &type_),
+                "MPI_Type_contiguous");
+    petsc_check(MPI_Type_commit(&type_), "MPI_Type_commit");
   }
   ~ValueType() { MPI_Type_free(&type_); }
   ValueType(const ValueType&) = delete;
@@ -53,11 +53,11 @@ class StarForestHalo final : public Halo {
   /// own rows there, which start at `first` here.
   StarForestHalo(int own, int first, std::vector<PetscInt> leaves, std::vector<PetscSFNode> owners)
       : first_(first) {
-    check(PetscSFCreate(PETSC_COMM_WORLD, &forest_), "PetscSFCreate");
-    check(PetscSFSetGraph(forest_, own, static_cast<PetscInt>(leaves.size()), leaves.data(),
-                          PETSC_COPY_VALUES, owners.data(), PETSC_COPY_VALUES),
-          "PetscSFSetGraph");
-    check(PetscSFSetUp(forest_), "PetscSFSetUp");
+    petsc_check(PetscSFCreate(PETSC_COMM_WORLD, &forest_), "PetscSFCreate");
+    petsc_check(PetscSFSetGraph(forest_, own, static_cast<PetscInt>(leaves.size()), leaves.data(),
+                                PETSC_COPY_VALUES, owners.data(), PETSC_COPY_VALUES),
+                "PetscSFSetGraph");
+    petsc_check(PetscSFSetUp(forest_), "PetscSFSetUp");
   }
   ~StarForestHalo() override { PetscSFDestroy(&forest_); }
   StarForestHalo(const StarForestHalo&) = delete;
@@ -66,8 +66,9 @@ class StarForestHalo final : public Halo {
   void exchange(void* values, std::size_t bytes) const override {
     const ValueType type(bytes);
     const auto* own = static_cast<const char*>(values) + static_cast<std::size_t>(first_) * bytes;
-    check(PetscSFBcastBegin(forest_, type.get(), own, values, MPI_REPLACE), "PetscSFBcastBegin");
-    check(PetscSFBcastEnd(forest_, type.get(), own, values, MPI_REPLACE), "PetscSFBcastEnd");
+    petsc_check(PetscSFBcastBegin(forest_, type.get(), own, values, MPI_REPLACE),
+                "PetscSFBcastBegin");
+    petsc_check(PetscSFBcastEnd(forest_, type.get(), own, values, MPI_REPLACE), "PetscSFBcastEnd");
   }
 
  private:
@@ -78,9 +79,9 @@ class StarForestHalo final : public Halo {
 class MpiRanks final : public Ranks {
  public:
   MpiRanks() {
-    check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank_), "MPI_Comm_rank");
-    check(MPI_Comm_size(PETSC_COMM_WORLD, &count_), "MPI_Comm_size");
-    check(MPI_Comm_dup(PETSC_COMM_WORLD, &endings_), "MPI_Comm_dup");
+    petsc_check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank_), "MPI_Comm_rank");
+    petsc_check(MPI_Comm_size(PETSC_COMM_WORLD, &count_), "MPI_Comm_size");
+    petsc_check(MPI_Comm_dup(PETSC_COMM_WORLD, &endings_), "MPI_Comm_dup");
   }
   ~MpiRanks() override { MPI_Comm_free(&endings_); }
   MpiRanks(const MpiRanks&) = delete;
@@ -95,30 +96,30 @@ class MpiRanks final : public Ranks {
     for (const ExactSum* sum : sums) all.push_back(*sum);
     const ValueType type(sum_size);
     MPI_Op add = MPI_OP_NULL;
-    check(MPI_Op_create(add_sums, 1, &add), "MPI_Op_create");
-    check(MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), type.get(), add,
-                        PETSC_COMM_WORLD),
-          "MPI_Allreduce");
-    check(MPI_Op_free(&add), "MPI_Op_free");
+    petsc_check(MPI_Op_create(add_sums, 1, &add), "MPI_Op_create");
+    petsc_check(MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), type.get(),
+                              add, PETSC_COMM_WORLD),
+                "MPI_Allreduce");
+    petsc_check(MPI_Op_free(&add), "MPI_Op_free");
     for (std::size_t i = 0; i < sums.size(); ++i) *sums[i] = all[i];
   }
 
   void largest(std::span<double> values) const override {
-    check(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE,
-                        MPI_MAX, PETSC_COMM_WORLD),
-          "MPI_Allreduce");
+    petsc_check(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()),
+                              MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD),
+                "MPI_Allreduce");
   }
 
   [[nodiscard]] long before(long count) const override {
     long sum = 0;
-    check(MPI_Exscan(&count, &sum, 1, MPI_LONG, MPI_SUM, PETSC_COMM_WORLD), "MPI_Exscan");
+    petsc_check(MPI_Exscan(&count, &sum, 1, MPI_LONG, MPI_SUM, PETSC_COMM_WORLD), "MPI_Exscan");
     return rank_ == 0 ? 0 : sum;
   }
 
   [[nodiscard]] std::string first_text(std::string own) const override {
     int first = own.empty() ? count_ : rank_;
-    check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD),
-          "MPI_Allreduce");
+    petsc_check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD),
+                "MPI_Allreduce");
     if (first == count_) return "";
     broadcast(first, own);
     return own;
@@ -132,11 +133,12 @@ class MpiRanks final : public Ranks {
   [[nodiscard]] std::vector<std::uint8_t> gather(std::vector<std::uint8_t> own) const override {
     const std::uint64_t size = own.size();
     std::vector<std::uint64_t> sizes(static_cast<std::size_t>(count_));
-    check(MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, PETSC_COMM_WORLD),
-          "MPI_Gather");
+    petsc_check(
+        MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, PETSC_COMM_WORLD),
+        "MPI_Gather");
     if (rank_ > 0) {
       for_pieces(size, [&](std::uint64_t at, int bytes) {
-        check(MPI_Send(own.data() + at, bytes, MPI_BYTE, 0, 0, PETSC_COMM_WORLD), "MPI_Send");
+        petsc_check(MPI_Send(own.data() + at, bytes, MPI_BYTE, 0, 0, PETSC_COMM_WORLD), "MPI_Send");
       });
       return {};
     }
@@ -147,22 +149,26 @@ class MpiRanks final : public Ranks {
       const std::uint64_t coming = sizes[static_cast<std::size_t>(rank)];
       own.resize(begin + coming);
       for_pieces(coming, [&](std::uint64_t at, int bytes) {
-        check(MPI_Recv(own.data() + begin + at, bytes, MPI_BYTE, rank, 0, PETSC_COMM_WORLD,
-                       MPI_STATUS_IGNORE),
-              "MPI_Recv");
+        petsc_check(MPI_Recv(own.data() + begin + at, bytes, MPI_BYTE, rank, 0, PETSC_COMM_WORLD,
+                             MPI_STATUS_IGNORE),
+                    "MPI_Recv");
       });
     }
     return own;
+  }
+
+  [[nodiscard]] std::unique_ptr<SharedFactor> symmetric_factor() const override {
+    return petsc_factor();
   }
 
   [[nodiscard]] bool all_come() const override {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::seconds patience{5};
     MPI_Request request = MPI_REQUEST_NULL;
-    check(MPI_Ibarrier(endings_, &request), "MPI_Ibarrier");
+    petsc_check(MPI_Ibarrier(endings_, &request), "MPI_Ibarrier");
     int have_come = 0;
     for (const auto start = Clock::now(); have_come == 0 && Clock::now() - start < patience;) {
-      check(MPI_Test(&request, &have_come, MPI_STATUS_IGNORE), "MPI_Test");
+      petsc_check(MPI_Test(&request, &have_come, MPI_STATUS_IGNORE), "MPI_Test");
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return have_come != 0;
@@ -175,8 +181,8 @@ class MpiRanks final : public Ranks {
     // one does.
     const long start = before(last - first);
     std::vector<long> starts(static_cast<std::size_t>(count_));
-    check(MPI_Allgather(&start, 1, MPI_LONG, starts.data(), 1, MPI_LONG, PETSC_COMM_WORLD),
-          "MPI_Allgather");
+    petsc_check(MPI_Allgather(&start, 1, MPI_LONG, starts.data(), 1, MPI_LONG, PETSC_COMM_WORLD),
+                "MPI_Allgather");
     std::vector<PetscInt> leaves;
     std::vector<PetscSFNode> owners;
     for (std::size_t i = 0; i < global.size(); ++i) {
@@ -207,10 +213,11 @@ class MpiRanks final : public Ranks {
   template <class Bytes>
   static void broadcast(int from, Bytes& bytes) {
     std::uint64_t size = bytes.size();
-    check(MPI_Bcast(&size, 1, MPI_UINT64_T, from, PETSC_COMM_WORLD), "MPI_Bcast");
+    petsc_check(MPI_Bcast(&size, 1, MPI_UINT64_T, from, PETSC_COMM_WORLD), "MPI_Bcast");
     bytes.resize(size);
     for_pieces(size, [&](std::uint64_t at, int count) {
-      check(MPI_Bcast(bytes.data() + at, count, MPI_BYTE, from, PETSC_COMM_WORLD), "MPI_Bcast");
+      petsc_check(MPI_Bcast(bytes.data() + at, count, MPI_BYTE, from, PETSC_COMM_WORLD),
+                  "MPI_Bcast");
     });
   }
 
@@ -232,9 +239,9 @@ MpiProcess::MpiProcess() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // One thread of each rank calls MPI, while another may write files.
   PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_FUNNELED;
-  check(PetscInitializeNoArguments(), "PetscInitialize");
+  petsc_check(PetscInitializeNoArguments(), "PetscInitialize");
   // Signals are the program's own.
-  check(PetscPopSignalHandler(), "PetscPopSignalHandler");
+  petsc_check(PetscPopSignalHandler(), "PetscPopSignalHandler");
 }
 
 MpiProcess::~MpiProcess() {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -15,6 +16,7 @@
 
 #include "ranks/exact_sum.hpp"
 #include "ranks/own_rows.hpp"
+#include "ranks/shared_factor.hpp"
 
 namespace suffuse {
 
@@ -48,6 +50,8 @@ class Ranks {
   [[nodiscard]] virtual bool all_come() const { return true; }
   /// Ends the processes of all ranks with this exit code.
   virtual void end_all(int /*code*/) const {}
+  /// What solves symmetric systems that several ranks share; null: this program is alone.
+  [[nodiscard]] virtual std::unique_ptr<SharedFactor> symmetric_factor() const { return nullptr; }
   /// Rows of which this rank holds those with the numbers `global` in the whole mesh,
   /// and owns those from `first` to `last`.
   [[nodiscard]] virtual OwnRows rows(const std::vector<long>& /*global*/, int first,

@@ -1,4 +1,4 @@
-#include "mixed/flux_correction.hpp"
+#include "grid/flux_correction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,15 @@ using model::FlowModel;
 using model::imbalance;
 using model::Uniform;
 
+/// Faces with a prescribed pressure.
+std::vector<char> held(const FlowModel& m) {
+  std::vector<char> result;
+  for (const FaceCondition& c : m.forcing.conditions) {
+    result.push_back(c.kind == FaceKind::pressure ? 1 : 0);
+  }
+  return result;
+}
+
 TEST(FluxCorrection, BalancesAnyFluxesAndLeavesPrescribedOnesAlone) {
   FlowModel m(model::column_mesh(9, 7, 1.0, 1.0, model::jittered(0.04, 2)));
   m.set("top", FaceKind::pressure, 0.0);
@@ -27,7 +36,7 @@ TEST(FluxCorrection, BalancesAnyFluxesAndLeavesPrescribedOnesAlone) {
   for (double& v : net_outflow) v = uniform();
   for (double& v : conductance) v = std::pow(10.0, 4.0 * uniform());
   const std::vector<double> before = flux;
-  FluxCorrection<2> correction(m.grid, m.forcing.conditions);
+  FluxCorrection<2> correction(m.grid, held(m));
   EXPECT_EQ(correction.sealed_piece_count(), 0);
   correction.follow(conductance);
   correction.correct(flux, net_outflow);
@@ -48,7 +57,7 @@ TEST(FluxCorrection, PassesWallsThatLetLiquidThrough) {
   ASSERT_TRUE(slit(mesh, {BoundarySet<2>{"wall", edges}}).empty());
   FlowModel m(mesh);
   m.set("bottom", FaceKind::pressure, 0.0);
-  EXPECT_EQ(FluxCorrection<2>(m.grid, m.forcing.conditions).sealed_piece_count(), 1);
+  EXPECT_EQ(FluxCorrection<2>(m.grid, held(m)).sealed_piece_count(), 1);
 
   // The middle face of the wall has the largest conductance.
   const auto& sides = m.mesh.boundaries.back().faces;
@@ -61,7 +70,7 @@ TEST(FluxCorrection, PassesWallsThatLetLiquidThrough) {
     pairs.push_back({face, partner});
   }
   m.grid.join_faces(pairs);
-  FluxCorrection<2> correction(m.grid, m.forcing.conditions, walls);
+  FluxCorrection<2> correction(m.grid, held(m), walls);
   EXPECT_EQ(correction.sealed_piece_count(), 0);
   correction.follow(std::vector<double>(m.mesh.element_count(), 1.0));
   std::vector<double> net_outflow(m.mesh.element_count());
@@ -92,7 +101,7 @@ TEST(FluxCorrection, SendsWhatIsMissingAlongTheBestConductors) {
     conductance[e] = x[1] < 0.25 ? 1.0 : 1e-6;
     if (x[1] < 0.25 && x[0] > 0.9) source = e;
   }
-  FluxCorrection<2> correction(m.grid, m.forcing.conditions);
+  FluxCorrection<2> correction(m.grid, held(m));
   correction.follow(conductance);
   std::vector<double> net_outflow(m.mesh.element_count(), 0.0);
   net_outflow[source] = 1.0;
@@ -113,7 +122,7 @@ TEST(FluxCorrection, TreeFollowsConductancesOnlyWhenTheirRatiosChangeALot) {
   // Flow from the permeable right side to the open left side, through the upper or the lower half.
   FlowModel m(model::column_mesh(8, 4));
   m.set("left", FaceKind::pressure, 0.0);
-  FluxCorrection<2> correction(m.grid, m.forcing.conditions);
+  FluxCorrection<2> correction(m.grid, held(m));
   const auto through_upper_half = [&](double upper) {
     std::vector<double> conductance(m.mesh.element_count());
     std::vector<double> net_outflow(m.mesh.element_count(), 0.0);
@@ -152,7 +161,7 @@ TEST(FluxCorrection, FindsSealedPieces) {
   }
   FlowModel m(mesh);
   m.set("top", FaceKind::pressure, 0.0);
-  const FluxCorrection<2> correction(m.grid, m.forcing.conditions);
+  const FluxCorrection<2> correction(m.grid, held(m));
   ASSERT_EQ(correction.sealed_piece_count(), 1);
   EXPECT_EQ(correction.sealed_root()[0], 32);
   for (int e = 0; e < m.mesh.element_count(); ++e) {
