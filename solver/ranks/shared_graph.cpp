@@ -19,7 +19,7 @@ std::vector<Value> values_on_all(const Ranks& ranks, const std::vector<Value>& o
   return result;
 }
 
-std::vector<long> nodes_of(const std::vector<SharedEdge>& edges) {
+std::vector<long> ends_of(const std::vector<SharedEdge>& edges) {
   std::vector<long> nodes;
   for (const SharedEdge& edge : edges) nodes.insert(nodes.end(), {edge.a, edge.b});
   std::ranges::sort(nodes);
@@ -35,7 +35,7 @@ int place_of(const std::vector<long>& nodes, long node) {
 
 SharedSets::SharedSets(const Ranks& ranks, const std::vector<SharedEdge>& own) {
   const std::vector<SharedEdge> edges = values_on_all(ranks, own);
-  nodes_ = nodes_of(edges);
+  nodes_ = ends_of(edges);
   DisjointSets sets(static_cast<int>(nodes_.size()));
   for (const SharedEdge& edge : edges)
     sets.join(place_of(nodes_, edge.a), place_of(nodes_, edge.b));
@@ -55,7 +55,7 @@ std::vector<long> heaviest_forest(const Ranks& ranks, const std::vector<SharedEd
   std::ranges::sort(edges, [](const SharedEdge& a, const SharedEdge& b) {
     return a.weight != b.weight ? a.weight > b.weight : a.number < b.number;
   });
-  const std::vector<long> nodes = nodes_of(edges);
+  const std::vector<long> nodes = ends_of(edges);
   DisjointSets joined(static_cast<int>(nodes.size()));
   std::vector<long> numbers;
   for (const SharedEdge& edge : edges) {
@@ -75,7 +75,7 @@ SharedForest::SharedForest(const Ranks& ranks, const std::vector<SharedEdge>& ed
   std::ranges::sort(all, {}, &SharedEdge::number);
   std::vector<SharedEdge> with_roots = all;
   for (const long root : all_roots) with_roots.push_back({.a = root, .b = root});
-  nodes_ = nodes_of(with_roots);
+  nodes_ = ends_of(with_roots);
   struct Way {
     long number;
     int to;
