@@ -18,7 +18,9 @@ struct LastStepErrors {
   /// solved; empty where it is not known.
   std::vector<double> conductivity = {};
 
-  void archive(auto& archive) { archive(face_pressure, face_flux, conductivity); }
+  void archive(auto& archive) {
+    archive(on_faces(face_pressure), on_faces(face_flux), on_elements(conductivity));
+  }
 };
 
 /// A flow by mixed elements, as it is at one moment.

@@ -14,12 +14,12 @@
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/progress.hpp"
-#include "driver/rank_refusals.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/run_notes.hpp"
 #include "driver/source_run.hpp"
 #include "driver/starting_point.hpp"
 #include "driver/stopwatch.hpp"
+#include "formulation/rank_refusals.hpp"
 #include "results/writer.hpp"
 
 namespace suffuse {
@@ -347,7 +347,7 @@ template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path) {
   const Ranks& ranks = *options.ranks;
-  if (ranks.count() > 1) refuse_on_ranks(c);
+  if (ranks.count() > 1) refuse_on_ranks(c, plan.transport);
   catch_interrupts();
   std::optional<StartingPoint> starting_point;
   together(ranks, [&] {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/implicit_thresholds.hpp"
+#include "mixed/implicit_thresholds.hpp"
 
 namespace suffuse {
 
@@ -32,7 +32,8 @@ void CoefficientBlending<Dim>::blend(double elapsed, const FlowCoefficients<Dim>
 }
 
 template <int Dim>
-double CoefficientBlending<Dim>::learn(const FlowCoefficients<Dim>& now, double dt, double weight,
+double CoefficientBlending<Dim>::learn(const Grid<Dim>& grid, const FlowCoefficients<Dim>& now,
+                                       double dt, double weight,
                                        const std::vector<double>& losses) {
   if (!expected_) return 0.0;
   double error = 0.0;
@@ -45,12 +46,14 @@ double CoefficientBlending<Dim>::learn(const FlowCoefficients<Dim>& now, double 
     const double resistance = expected_->drag[e] / expected_->porosity[e];
     const double own = std::abs(resistance * now.porosity[e] / now.drag[e] - 1.0);
     error = std::max(error, own);
-    if (losses.empty()) continue;
+    if (losses.empty() || !grid.element_rows().owns(static_cast<int>(e))) continue;
     all_losses += losses[e];
     lost += losses[e] * own;
   }
   expected_.reset();
-  return all_losses > 0.0 ? lost / all_losses : error;
+  all_losses = sum_of_all(grid.ranks(), all_losses);
+  if (all_losses > 0.0) return sum_of_all(grid.ranks(), lost) / all_losses;
+  return largest_of_all(grid.ranks(), error);
 }
 
 template <int Dim>

@@ -40,7 +40,7 @@ class CoefficientBlending {
   /// seconds. `weight`, in (0, 1]: weight of this step's drift of densities against earlier ones.
   /// Returns the largest relative error of an expected resistance; with `losses`, the head loss of
   /// each element in any unit, the mean error weighted with these. Zero if nothing was expected.
-  double learn(const FlowCoefficients<Dim>& now, double dt, double weight,
+  double learn(const Grid<Dim>& grid, const FlowCoefficients<Dim>& now, double dt, double weight,
                const std::vector<double>& losses = {});
   /// Call at the end of a step of `dt` seconds.
   void finish(double dt);
@@ -52,7 +52,9 @@ class CoefficientBlending {
   [[nodiscard]] const FlowCoefficients<Dim>& used() const { return used_; }
   [[nodiscard]] bool expects() const { return expected_.has_value(); }
 
-  void archive(auto& archive) { archive(used_, expected_, density_drift_, blend_time_); }
+  void archive(auto& archive) {
+    archive(used_, expected_, on_elements(density_drift_), blend_time_);
+  }
 
  private:
   BlendingSettings settings_;

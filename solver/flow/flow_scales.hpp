@@ -26,16 +26,19 @@ struct FlowScales {
 
   /// Raises the scales to those of a flow with these pressures and fluxes at the faces. A known
   /// flux scale stays: a short peak, as at a start from rest, does not count.
-  void include(const std::vector<double>& face_pressure, const std::vector<double>& face_flux);
+  template <int Dim>
+  void include(const Grid<Dim>& grid, const std::vector<double>& face_pressure,
+               const std::vector<double>& face_flux);
   /// Includes loads on moving soil, which also drive the flow; pressures then have no bounds.
   ///
   /// \param change     largest change of a load, Pa
   /// \param stiffness  of the soil, Pa: stresses of tiny strains do not count
   void include_loads(double change, double stiffness);
   /// Widens the bounds to these pressures, from which the flow starts.
-  void include_in_bounds(const std::vector<double>& face_pressure);
+  void include_in_bounds(const Ranks& ranks, const std::vector<double>& face_pressure);
   /// Largest excess of pressures over their bounds, over the pressure scale; zero without bounds.
-  [[nodiscard]] double overshoot(const std::vector<double>& face_pressure) const;
+  [[nodiscard]] double overshoot(const Ranks& ranks,
+                                 const std::vector<double>& face_pressure) const;
 
   void archive(auto& archive) {
     archive(flux, pressure, flux_sum, pore_volume, flux_known, has_bounds, min_pressure,
@@ -53,8 +56,9 @@ double filling_time(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coeffici
 /// values and at the end. `at_start`: coefficients and conditions. If no steady flow exists, as
 /// with prescribed fluxes only, the scales are zero or smaller.
 template <int Dim>
-FlowScales find_scales(ImplicitMixed<Dim>& scheme, const FlowForcing<Dim>& at_start,
-                       const BoundaryValues<Dim>& values, double end, bool has_gravity);
+FlowScales find_scales(const Grid<Dim>& grid, ImplicitMixed<Dim>& scheme,
+                       const FlowForcing<Dim>& at_start, const BoundaryValues<Dim>& values,
+                       double end, bool has_gravity);
 
 /// Raises the scales above what counts as nothing: see ImplicitThresholds::nothing. `end` of the
 /// run, s.

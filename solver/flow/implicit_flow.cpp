@@ -6,8 +6,8 @@
 #include "boundary/reservoir_iteration.hpp"
 #include "common/errors.hpp"
 #include "flow/implicit_settings.hpp"
-#include "flow/implicit_thresholds.hpp"
 #include "grid/face_flux.hpp"
+#include "mixed/implicit_thresholds.hpp"
 #include "physics/head.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"
@@ -69,14 +69,15 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
       scheme_(grid, scheme_settings(this->scene(), options), this->gravity(),
               flow_soils(this->scene(), solid.soils(), solid.filling()), leaky_faces(c, grid)),
       has_gravity_(this->gravity().norm() > 0.0),
-      follows_pores_(depends_on_pores(this->scene(), this->conditions_, options) || has_gravity_),
+      follows_pores_(depends_on_pores(this->scene(), options) ||
+                     has_condition(grid, this->conditions_, FaceKind::velocity) || has_gravity_),
       control_(
           step_settings(this->scene(), options, follows_pores_, this->conditions_, this->kinks())),
       blending_(blending_settings(this->scene(), options, follows_pores_)),
-      reuse_({options.reuse_steady && !scheme_.has_retention() && !solid.moves() &&
-                  this->boundary_values().reservoir_rates().empty(),
-              this->scene().time.tolerance, has_gravity_,
-              has_condition(this->conditions_, FaceKind::velocity)}) {}
+      reuse_(grid, {options.reuse_steady && !scheme_.has_retention() && !solid.moves() &&
+                        this->boundary_values().reservoir_rates().empty(),
+                    this->scene().time.tolerance, has_gravity_,
+                    has_condition(grid, this->conditions_, FaceKind::velocity)}) {}
 
 // How it starts: at rest, in a steady flow, or as another run left it.
 
@@ -108,14 +109,15 @@ void ImplicitFlow<Dim>::start_with(MixedFlow<Dim> flow, const ElementField<Dim>*
   const Scene& scene = this->scene();
   now_ = std::move(flow);
   const FlowForcing<Dim> forcing{this->coefficients_, this->conditions_, {}};
-  scales_ = find_scales(scheme_, forcing, this->boundary_values(), scene.time.end, has_gravity_);
+  scales_ =
+      find_scales(grid, scheme_, forcing, this->boundary_values(), scene.time.end, has_gravity_);
   const bool at_rest = starts_at_rest();
   if (!at_rest) now_ = end_of(scheme_.steady(forcing));
   now_.state.air =
       air ? *air : scheme_.air_at(now_.state.face_pressure, this->coefficients_.porosity);
   pressure_ = element_pressure_now();
-  if (!flows_at_once()) scales_.include_in_bounds(now_.state.face_pressure);
-  scales_.include(now_.state.face_pressure, now_.face_flux);
+  if (!flows_at_once()) scales_.include_in_bounds(grid.ranks(), now_.state.face_pressure);
+  scales_.include(grid, now_.state.face_pressure, now_.face_flux);
   raise_over_round_off(scales_, grid, this->coefficients_, scene.liquid, scene.time.end);
   const double of_run = implicit_thresholds.first_step * scene.time.end;
   const double of_liquid = shortest_change({});
@@ -316,15 +318,18 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
                                     step.end.face_pressure, scales_.pressure};
   // A sudden load drives an infinite flux out of its boundary for an instant: only pressures count.
   if (solid_.moves()) return control_.error(start, dt, {of_pressure});
-  const double flux_scale = std::max(scales_.flux, largest_magnitude(step.flux_through));
-  return control_.error(
+  const Ranks& ranks = this->grid().ranks();
+  const double flux_scale =
+      std::max(scales_.flux, largest_of_all(ranks, largest_magnitude(step.flux_through)));
+  const double own = control_.error(
       start, dt, {{before(flux), now_.flux_through, step.flux_through, flux_scale}, of_pressure});
+  return largest_of_all(ranks, own);
 }
 
 template <int Dim>
 void ImplicitFlow<Dim>::remember(MixedStep<Dim> step, double dt) {
   MixedFlow<Dim> end = end_of(std::move(step));
-  scales_.include(end.state.face_pressure, end.flux_through);
+  scales_.include(this->grid(), end.state.face_pressure, end.flux_through);
   previous_.reset();
   if (control_.smooth()) previous_ = std::move(now_);
   now_ = std::move(end);
@@ -351,10 +356,10 @@ void ImplicitFlow<Dim>::reuse_if_steady(double time) {
   const PassTimer timer(solving_);
   if (!reuse_.allowed() || !previous_) return;
   // Without a prescribed pressure round-off alone would change the level of compressible water.
-  const bool sealed = !has_condition(this->conditions_, FaceKind::pressure);
+  const bool sealed = !has_condition(this->grid(), this->conditions_, FaceKind::pressure);
   if (sealed && std::isfinite(this->scene().liquid.bulk_modulus)) return;
   if (!reuse_.is_close(now_.face_flux, previous_->face_flux, scales_.flux)) return;
-  if (!boundary_values_rest(this->boundary_values(), this->conditions_, time,
+  if (!boundary_values_rest(this->grid(), this->boundary_values(), this->conditions_, time,
                             this->scene().time.end)) {
     return;
   }
@@ -385,7 +390,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     const double weight = scattered ? dt / (dt + filling_time()) : 1.0;
     // Resistances were right at the start of the step: their mean error is half that at its end.
     const double error = blending_.learn(
-        this->coefficients_, dt, weight,
+        this->grid(), this->coefficients_, dt, weight,
         drag_losses(this->scene(), this->grid(), now_.face_flux, this->coefficients_));
     // Motion of the soil changes them too, and the expectation leaves motion out.
     const bool shown = solid_.has_inertia() || scheme_.soils().air_moves();
@@ -408,13 +413,15 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
   }
   result.relative_conductivity = scheme_.relative_conductivity(now_.state.face_pressure);
   result.eos_error = eos_error_;
-  result.pressure_overshoot = scales_.overshoot(now_.state.face_pressure);
+  result.pressure_overshoot = scales_.overshoot(this->grid().ranks(), now_.state.face_pressure);
   NodalFields<Dim> nodes =
       nodal_fields(this->grid(), now_, pressure_, this->coefficients_.porosity,
                    Vector<Dim>(this->scene().liquid.density * this->gravity()));
   result.node_pressure = std::move(nodes.pressure);
   result.velocity = std::move(nodes.velocity);
   this->prescribe_at_nodes(result.node_pressure);
+  this->grid().node_rows().exchange(result.node_pressure);
+  this->grid().node_rows().exchange(result.velocity);
   return result;
 }
 
@@ -431,7 +438,7 @@ void ImplicitFlow<Dim>::archive(StateArchive& archive) {
   FlowSolver<Dim>::archive(archive);
   scheme_.archive(archive, this->conditions_);
   archive(control_, blending_, relaxation_, reuse_, scales_);
-  archive(now_, previous_, pressure_, eos_error_, errors_, solving_, reusing_);
+  archive(now_, previous_, on_elements(pressure_), eos_error_, errors_, solving_, reusing_);
   if (archive.restores()) follow_soils();
 }
 

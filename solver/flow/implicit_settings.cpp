@@ -4,18 +4,23 @@
 
 namespace suffuse {
 
-bool has_condition(const std::vector<FaceCondition>& conditions, FaceKind kind) {
-  return std::ranges::find(conditions, kind, &FaceCondition::kind) != conditions.end();
+template <int Dim>
+bool has_condition(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                   FaceKind kind) {
+  const bool here = std::ranges::find(conditions, kind, &FaceCondition::kind) != conditions.end();
+  return any_of_all(grid.ranks(), here);
 }
 
-bool depends_on_pores(const Scene& scene, const std::vector<FaceCondition>& conditions,
-                      const FlowOptions& options) {
+template bool has_condition(const Grid<2>&, const std::vector<FaceCondition>&, FaceKind);
+template bool has_condition(const Grid<3>&, const std::vector<FaceCondition>&, FaceKind);
+
+bool depends_on_pores(const Scene& scene, const FlowOptions& options) {
   const auto depends = [](const Soil& soil) {
     return soil.conductivity_law->depends_on_porosity() || soil.erosion.momentum_transfer ||
            soil.drag == SoilDrag::ergun;
   };
   return options.inertia || scene.liquid.viscosity_model.depends_on_concentration() ||
-         has_condition(conditions, FaceKind::velocity) || std::ranges::any_of(scene.soils, depends);
+         std::ranges::any_of(scene.soils, depends);
 }
 
 ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options) {

@@ -12,12 +12,14 @@
 
 namespace suffuse {
 
-/// Whether any face has a condition of this kind.
-bool has_condition(const std::vector<FaceCondition>& conditions, FaceKind kind);
+/// Whether any face of the model has a condition of this kind.
+template <int Dim>
+bool has_condition(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                   FaceKind kind);
 
-/// Whether the coefficients of the flow depend on pores that erosion opens, apart from gravity.
-bool depends_on_pores(const Scene& scene, const std::vector<FaceCondition>& conditions,
-                      const FlowOptions& options);
+/// Whether the coefficients of the flow depend on pores that erosion opens, apart from gravity and
+/// prescribed velocities.
+bool depends_on_pores(const Scene& scene, const FlowOptions& options);
 
 ImplicitSettings scheme_settings(const Scene& scene, const FlowOptions& options);
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/implicit_thresholds.hpp"
 #include "mixed/flow_values.hpp"
+#include "mixed/implicit_thresholds.hpp"
 
 namespace suffuse {
 

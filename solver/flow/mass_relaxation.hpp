@@ -44,7 +44,8 @@ class MassRelaxation {
   void finish(double dt, double filling_time);
 
   void archive(auto& archive) {
-    archive(mismatch_, outflow_, source_, change_time_, blending_time_);
+    archive(on_elements(mismatch_), on_elements(outflow_), on_elements(source_), change_time_,
+            blending_time_);
   }
 
  private:

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/implicit_thresholds.hpp"
 #include "mixed/flow_values.hpp"
+#include "mixed/implicit_thresholds.hpp"
 
 namespace suffuse {
 
 template <int Dim>
-bool boundary_values_rest(const BoundaryValues<Dim>& values,
+bool boundary_values_rest(const Grid<Dim>& grid, const BoundaryValues<Dim>& values,
                           const std::vector<FaceCondition>& conditions, double time, double end) {
   if (!values.vary()) return true;
   // Values are linear between two kinks: constant if equal at both.
@@ -17,18 +17,22 @@ bool boundary_values_rest(const BoundaryValues<Dim>& values,
   const auto next = std::upper_bound(values.breakpoints().begin(), values.breakpoints().end(),
                                      time * (1.0 + 1e-14));
   values.update(next != values.breakpoints().end() ? *next : end, later);
-  return std::ranges::equal(later, conditions, {}, &FaceCondition::value, &FaceCondition::value);
+  const bool rest =
+      std::ranges::equal(later, conditions, {}, &FaceCondition::value, &FaceCondition::value);
+  return !any_of_all(grid.ranks(), !rest);
 }
 
 template <int Dim>
 void SteadyReuse<Dim>::check(const FlowCoefficients<Dim>& coefficients) {
-  if (coefficients_ && !resists_alike(coefficients, *coefficients_)) stop();
+  if (!coefficients_) return;
+  if (any_of_all(grid_.ranks(), !resists_alike(coefficients, *coefficients_))) stop();
 }
 
 template <int Dim>
 bool SteadyReuse<Dim>::is_close(const std::vector<double>& a, const std::vector<double>& b,
                                 double scale) const {
-  return largest_difference(a, b) <= implicit_thresholds.steady * settings_.tolerance * scale;
+  const double largest = largest_of_all(grid_.ranks(), largest_difference(a, b));
+  return largest <= implicit_thresholds.steady * settings_.tolerance * scale;
 }
 
 template <int Dim>
@@ -36,8 +40,12 @@ bool SteadyReuse<Dim>::needs_update(const std::vector<double>& source,
                                     const std::vector<double>& new_source,
                                     double flux_scale) const {
   double together = 0.0;
-  for (std::size_t e = 0; e < source.size(); ++e) together += std::abs(new_source[e] - source[e]);
-  return together > implicit_thresholds.steady_update * settings_.tolerance * flux_scale;
+  // Relaxation has no sources yet in all elements, or in none.
+  if (!source.empty()) {
+    for (const int e : grid_.own_elements()) together += std::abs(new_source[e] - source[e]);
+  }
+  return sum_of_all(grid_.ranks(), together) >
+         implicit_thresholds.steady_update * settings_.tolerance * flux_scale;
 }
 
 template <int Dim>
@@ -55,11 +63,11 @@ bool SteadyReuse<Dim>::resists_alike(const FlowCoefficients<Dim>& a,
   return true;
 }
 
-template bool boundary_values_rest(const BoundaryValues<2>&, const std::vector<FaceCondition>&,
-                                   double, double);
+template bool boundary_values_rest(const Grid<2>&, const BoundaryValues<2>&,
+                                   const std::vector<FaceCondition>&, double, double);
 template class SteadyReuse<2>;
-template bool boundary_values_rest(const BoundaryValues<3>&, const std::vector<FaceCondition>&,
-                                   double, double);
+template bool boundary_values_rest(const Grid<3>&, const BoundaryValues<3>&,
+                                   const std::vector<FaceCondition>&, double, double);
 template class SteadyReuse<3>;
 
 }  // namespace suffuse

@@ -21,13 +21,15 @@ struct SteadyReuseSettings {
 /// Whether boundary values are constant from `time` to their next kink or the end of the run.
 /// `conditions`: those at `time`, s.
 template <int Dim>
-bool boundary_values_rest(const BoundaryValues<Dim>& values,
+bool boundary_values_rest(const Grid<Dim>& grid, const BoundaryValues<Dim>& values,
                           const std::vector<FaceCondition>& conditions, double time, double end);
 
 template <int Dim>
 class SteadyReuse {
  public:
-  explicit SteadyReuse(SteadyReuseSettings settings) : settings_(settings) {}
+  /// Keeps a reference to the grid.
+  SteadyReuse(const Grid<Dim>& grid, SteadyReuseSettings settings)
+      : grid_(grid), settings_(settings) {}
 
   /// Whether a steady flow is in use.
   [[nodiscard]] bool active() const { return coefficients_.has_value(); }
@@ -53,6 +55,7 @@ class SteadyReuse {
   [[nodiscard]] bool resists_alike(const FlowCoefficients<Dim>& a,
                                    const FlowCoefficients<Dim>& b) const;
 
+  const Grid<Dim>& grid_;
   SteadyReuseSettings settings_;
   std::optional<FlowCoefficients<Dim>> coefficients_;  ///< of the steady flow in use
 };

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "common/errors.hpp"
-#include "flow/implicit_thresholds.hpp"
 #include "grid/parallel.hpp"
 #include "mixed/flow_values.hpp"
+#include "mixed/implicit_thresholds.hpp"
 
 namespace suffuse {
 namespace {

@@ -8,8 +8,8 @@
 #include "common/errors.hpp"
 #include "files/tables.hpp"
 #include "flow/implicit_flow.hpp"
-#include "flow/implicit_thresholds.hpp"
 #include "grid/face_flux.hpp"
+#include "mixed/implicit_thresholds.hpp"
 #include "physics/liquid.hpp"
 #include "results/pass_timer.hpp"
 
@@ -64,6 +64,50 @@ template <int Dim>
   throw NumericalError(message.str());
 }
 
+/// By how much each element's water exceeds its room, m3, and the largest of that over the pores.
+struct Mismatch {
+  std::vector<double> volume;
+  double of_pores = 0.0;
+};
+
+/// When masses of water are compared with their room, s, and whether they have to fit.
+struct Fit {
+  double time;
+  bool is_needed;
+};
+
+/// Of these masses, kg per element, at these pressures, Pa. Throws NumericalError on all ranks
+/// where they do not fit; `refuse_dry(e)` throws for an element without water.
+template <int Dim>
+Mismatch mismatch_of(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
+                     const LiquidProperties& liquid, const std::vector<double>& pressure,
+                     const std::vector<double>& water_mass, const Fit& fit,
+                     const auto& refuse_dry) {
+  Mismatch result{std::vector<double>(water_mass.size()), 0.0};
+  together(grid.ranks(), [&] {
+    std::size_t worst = 0;
+    for (std::size_t e = 0; e < water_mass.size(); ++e) {
+      const double fills =
+          water_mass[e] / (liquid.density * density_ratio(pressure[e], liquid.bulk_modulus));
+      if (!(fills > 0.0)) refuse_dry(static_cast<int>(e));
+      result.volume[e] = fills - coefficients.water_volume[e];
+      // Relative to the pores: where fines leave hardly any room for water, an error relative to
+      // the water has no meaning.
+      const double error = std::abs(result.volume[e]) / (coefficients.porosity[e] * grid.volume[e]);
+      if (error > result.of_pores) {
+        result.of_pores = error;
+        worst = e;
+      }
+    }
+    if (!fit.is_needed || result.of_pores <= max_eos_error) return;
+    const double fits = liquid.density * coefficients.water_volume[worst] *
+                        density_ratio(pressure[worst], liquid.bulk_modulus);
+    refuse_misfit(grid, worst, fit.time, water_mass[worst], fits, pressure[worst]);
+  });
+  result.of_pores = largest_of_all(grid.ranks(), result.of_pores);
+  return result;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -73,7 +117,9 @@ std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, dou
   if (solid_.moves()) return {};
   const std::vector<double>& holds = this->coefficients_.water_volume;
   // Use the flux of the step itself, as a flow from rest has none at its start.
-  const double passes = largest_magnitude(step.face_volume) / std::ranges::min(holds);
+  const Ranks& ranks = this->grid().ranks();
+  const double passes = largest_of_all(ranks, largest_magnitude(step.face_volume)) /
+                        smallest_of_all(ranks, std::ranges::min(holds));
   if (passes < implicit_thresholds.expansion_time) return {};
   std::vector<double> excess =
       expansion_in(step, this->grid(), this->coefficients_, now_.state.face_pressure, pressure_,
@@ -84,7 +130,7 @@ std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, dou
     if (!released.empty()) excess[e] += released[e];
     largest = std::max(largest, std::abs(excess[e]) / holds[e]);
   }
-  if (largest <= implicit_thresholds.expansion) return {};
+  if (largest_of_all(ranks, largest) <= implicit_thresholds.expansion) return {};
   return excess;
 }
 
@@ -132,7 +178,8 @@ template <int Dim>
 void ImplicitFlow<Dim>::update_steady_flow() {
   std::vector<double> source = relaxation_.wanted_source(control_.last_step(), filling_time());
   // Relative to the present flow: the sources of a faster one would fill or drain elements in time.
-  if (reuse_.needs_update(relaxation_.source(), source, largest_magnitude(now_.face_flux))) {
+  const double largest = largest_of_all(this->grid().ranks(), largest_magnitude(now_.face_flux));
+  if (reuse_.needs_update(relaxation_.source(), source, largest)) {
     take_steady_flow(std::move(source));
   }
 }
@@ -140,34 +187,15 @@ void ImplicitFlow<Dim>::update_steady_flow() {
 template <int Dim>
 void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& water_mass) {
   const LiquidProperties& liquid = this->scene().liquid;
-  const std::vector<double>& volume = this->coefficients_.water_volume;
-  std::vector<double> mismatch(water_mass.size());
-  eos_error_ = 0.0;
-  std::size_t worst = 0;
-  for (std::size_t e = 0; e < water_mass.size(); ++e) {
-    const double fills =
-        water_mass[e] / (liquid.density * density_ratio(pressure_[e], liquid.bulk_modulus));
-    if (!(fills > 0.0)) this->refuse_dry(static_cast<int>(e), time);
-    mismatch[e] = fills - volume[e];
-    // Relative to the pores: where fines leave hardly any room for water, an error relative to the
-    // water has no meaning.
-    const double pores = this->coefficients_.porosity[e] * this->grid().volume[e];
-    const double error = std::abs(mismatch[e]) / pores;
-    if (error > eos_error_) {
-      eos_error_ = error;
-      worst = e;
-    }
-  }
   const bool air_fits = scheme_.soils().air_moves();
-  if (!air_fits && eos_error_ > max_eos_error) {
-    const double fits =
-        liquid.density * volume[worst] * density_ratio(pressure_[worst], liquid.bulk_modulus);
-    refuse_misfit(this->grid(), worst, time, water_mass[worst], fits, pressure_[worst]);
-  }
+  const auto refuse = [&](int e) { this->refuse_dry(e, time); };
+  Mismatch mismatch = mismatch_of(this->grid(), this->coefficients_, liquid, pressure_, water_mass,
+                                  {time, !air_fits}, refuse);
+  eos_error_ = mismatch.of_pores;
   // Incompressible water fits by construction, and its round-off cannot leave. Air that moves with
   // the soil makes up for the mismatch.
   if (std::isinf(liquid.bulk_modulus) || air_fits) return;
-  relaxation_.observe(std::move(mismatch), volume);
+  relaxation_.observe(std::move(mismatch.volume), this->coefficients_.water_volume);
   if (reuse_.active()) update_steady_flow();
 }
 

@@ -155,9 +155,10 @@ void gather(const Grid<Dim>& grid, const SoilMap<Dim>& soils, Snapshot& snapshot
   if (ranks.count() == 1) return;
   const auto gather_own = [&](std::vector<Field>& fields, const NumberRange& own) {
     for (Field& field : fields) {
+      const std::ptrdiff_t size = field.components;
       const auto begin = field.values.begin();
-      field.values = gather_values(ranks, std::vector(begin + field.components * *own.begin(),
-                                                      begin + field.components * *own.end()));
+      field.values =
+          gather_values(ranks, std::vector(begin + size * *own.begin(), begin + size * *own.end()));
     }
   };
   gather_own(snapshot.cell, grid.own_elements());

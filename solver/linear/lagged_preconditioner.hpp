@@ -67,13 +67,15 @@ class LaggedPreconditioner {
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
 
   /// The factored matrix decides how later ones are solved. Its factor is made again from its
-  /// values, with the same bits; `pattern` is that of the matrices.
-  void archive(auto& archive, const Eigen::SparseMatrix<double>& pattern) {
+  /// values, with the same bits; `pattern` is that of the matrices. Without `is_used` what is
+  /// restored is dropped.
+  void archive(auto& archive, const Eigen::SparseMatrix<double>& pattern, bool is_used = true) {
     std::vector<double> factored = factored_values_;
     archive(factored, iterated_values_);
     if (archive.restores()) {
       factored_values_.clear();
-      if (!factored.empty()) {
+      if (!is_used) iterated_values_.clear();
+      if (is_used && !factored.empty()) {
         Matrix matrix = pattern;
         if (factored.size() != static_cast<std::size_t>(matrix.nonZeros())) archive.misfit();
         std::copy(factored.begin(), factored.end(), matrix.valuePtr());

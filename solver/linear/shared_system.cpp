@@ -75,6 +75,7 @@ Eigen::VectorXd SharedSystem::solve(const SymmetricSystem& system) {
   // some that have not halved it, the round-off of the residual is reached.
   constexpr double gain = 0.5;
   constexpr int most_without_gain = 3;
+  ++solves_;
   factorise(system.matrix);
   std::vector<double> x(system.guess.data(), system.guess.data() + system.guess.size());
   rows_.exchange(x);

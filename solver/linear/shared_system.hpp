@@ -22,7 +22,8 @@ class SharedSystem {
   /// its residual. The pattern of the matrix is the same in every call. Throws NumericalError.
   Eigen::VectorXd solve(const SymmetricSystem& system);
 
-  /// Of the preconditioner, in all calls so far.
+  // In all calls so far; iterations are those of the preconditioner.
+  [[nodiscard]] long solves() const { return solves_; }
   [[nodiscard]] long iterations() const { return iterations_; }
 
  private:
@@ -39,6 +40,7 @@ class SharedSystem {
   std::unique_ptr<SharedFactor> factor_;
   std::vector<double> factored_;  ///< values of the matrix that is factored
   std::vector<double> residual_;  ///< per own row
+  long solves_ = 0;
   long iterations_ = 0;
 };
 

@@ -33,6 +33,7 @@ FaceVolumes face_volumes(const Grid<Dim>& grid, const std::vector<double>& start
                                     : 0.5 * (start_face[f] + step.end.face_pressure[f]);
     result.density_excess[f] = volume * std::expm1(upwind / bulk_modulus);
   });
+  grid.face_rows().exchange(result.density_excess);
   return result;
 }
 

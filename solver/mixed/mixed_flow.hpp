@@ -18,7 +18,7 @@ struct MixedFlow {
   std::vector<double> face_flux;     ///< along each face's normal, m3/s
   std::vector<double> flux_through;  ///< see MixedStep: errors and scales are based on it
 
-  void archive(auto& archive) { archive(state, face_flux, flux_through); }
+  void archive(auto& archive) { archive(state, on_faces(face_flux), on_faces(flux_through)); }
 };
 
 /// The flow at the end of a step.

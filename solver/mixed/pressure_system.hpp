@@ -32,7 +32,7 @@ class PressureSystem {
   [[nodiscard]] NewtonSystem& newton() { return newton_; }
   [[nodiscard]] SolveCounts counts() const {
     SolveCounts result = solver_.counts();
-    if (shared_) result.iterations += shared_->iterations();
+    if (shared_) result += {.solves = shared_->solves(), .iterations = shared_->iterations()};
     return result += newton_.counts();
   }
   /// Assembles the matrix for the law of the stage.
@@ -119,7 +119,8 @@ class PressureSystem {
   [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }
 
   void archive(auto& archive) {
-    solver_.archive(archive, matrix_.values());
+    // On several ranks the state of one process has factors of the whole matrix, which none uses.
+    solver_.archive(archive, matrix_.values(), !shared_);
     newton_.archive(archive, matrix_.values());
   }
 

@@ -29,7 +29,7 @@ void ask_to_stop(int) {
 }
 
 fs::path shared_solver() {
-  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / "suffuse-solver-mpi";
+  fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / "suffuse-solver-mpi";
   if (fs::exists(beside)) return beside;
   throw FileError(
       "--ranks: suffuse-solver-mpi is not beside suffuse-solver: this installation has no runs on "
@@ -50,6 +50,7 @@ fs::path shared_solver() {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   }
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   ::execvp(pointers.front(), pointers.data());
@@ -74,7 +75,8 @@ int status_of(pid_t process) {
 }  // namespace
 
 int launch_ranks(int ranks, const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"mpirun", "-q", "-n", std::to_string(ranks)};
+  // Ranks that are bound to cores wait for whatever else runs there.
+  std::vector<std::string> words{"mpirun", "-q", "--bind-to", "none", "-n", std::to_string(ranks)};
   if (ranks > static_cast<int>(std::thread::hardware_concurrency())) {
     words.emplace_back("--oversubscribe");
   }

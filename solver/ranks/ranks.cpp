@@ -34,7 +34,7 @@ std::string message_of(const std::exception_ptr& error) {
 
 }  // namespace
 
-void throw_together(const Ranks& ranks, std::exception_ptr own) {
+void throw_together(const Ranks& ranks, const std::exception_ptr& own) {
   const std::string first = ranks.first_text(message_of(own));
   if (first.empty()) return;
   const std::string message = first.substr(1);

@@ -71,6 +71,19 @@ inline double smallest_of_all(const Ranks& ranks, double value) {
   return -largest_of_all(ranks, -value);
 }
 
+/// Whether any rank has it.
+inline bool any_of_all(const Ranks& ranks, bool has) {
+  return largest_of_all(ranks, has ? 1.0 : 0.0) > 0.0;
+}
+
+/// The sum over all ranks; alone the value itself.
+inline double sum_of_all(const Ranks& ranks, double own) {
+  ExactSum sum;
+  sum.add(own);
+  ranks.sum({&sum});
+  return sum.value();
+}
+
 /// Whether this is the lowest rank of those for which `has` is true.
 inline bool is_first(const Ranks& ranks, bool has) {
   const std::string own = std::to_string(ranks.rank());
@@ -90,7 +103,7 @@ std::vector<Value> gather_values(const Ranks& ranks, const std::vector<Value>& o
 
 /// Throws on all ranks the error of the lowest rank that has one; `own` is null on those that have
 /// none.
-void throw_together(const Ranks& ranks, std::exception_ptr own);
+void throw_together(const Ranks& ranks, const std::exception_ptr& own);
 
 /// Does work that may throw on some ranks alone, and then throws on all of them: a rank that left
 /// alone would have the others wait for ever.
@@ -115,6 +128,7 @@ inline void archive_sums(auto& archive, const Ranks& ranks, const std::vector<Ex
   std::vector<ExactSum> all;
   all.reserve(sums.size());
   std::vector<ExactSum*> each;
+  each.reserve(sums.size());
   for (const ExactSum* sum : sums) each.push_back(&all.emplace_back(*sum));
   if (!archive.restores()) ranks.sum(each);
   for (std::size_t i = 0; i < sums.size(); ++i) {

@@ -90,18 +90,20 @@ SharedForest::SharedForest(const Ranks& ranks, const std::vector<SharedEdge>& ed
   constexpr int not_reached = -2;
   receiver_.assign(nodes_.size(), not_reached);
   drain_.assign(nodes_.size(), -1);
+  std::vector<int> from_root;
   for (const long root : all_roots) {
     receiver_[place_of(nodes_, root)] = -1;
-    from_root_.push_back(place_of(nodes_, root));
+    from_root.push_back(place_of(nodes_, root));
   }
-  for (std::size_t i = 0; i < from_root_.size(); ++i) {
-    for (const Way& way : ways[from_root_[i]]) {
+  for (std::size_t i = 0; i < from_root.size(); ++i) {
+    for (const Way& way : ways[from_root[i]]) {
       if (receiver_[way.to] != not_reached) continue;
-      receiver_[way.to] = from_root_[i];
+      receiver_[way.to] = from_root[i];
       drain_[way.to] = way.number;
-      from_root_.push_back(way.to);
+      from_root.push_back(way.to);
     }
   }
+  to_root_.assign(from_root.rbegin(), from_root.rend());
 }
 
 std::size_t SharedForest::place(long node) const {
@@ -115,12 +117,13 @@ long SharedForest::drain(long node) const {
 std::vector<SharedForest::Value> SharedForest::drained(const Ranks& ranks,
                                                        const std::vector<Value>& own) const {
   std::vector<Value> result;
+  result.reserve(nodes_.size());
   for (const long node : nodes_) result.push_back({node, 0.0});
   for (const Value& value : values_on_all(ranks, own)) {
     result[place(value.node)].value += value.value;
   }
-  for (auto i = from_root_.rbegin(); i != from_root_.rend(); ++i) {
-    if (receiver_[*i] >= 0) result[receiver_[*i]].value += result[*i].value;
+  for (const int i : to_root_) {
+    if (receiver_[i] >= 0) result[receiver_[i]].value += result[i].value;
   }
   return result;
 }

@@ -64,7 +64,7 @@ class SharedForest {
   std::vector<long> nodes_;    ///< ascending
   std::vector<long> drain_;    ///< of each of them
   std::vector<int> receiver_;  ///< place of the node it drains to; -1 at a root
-  std::vector<int> from_root_;
+  std::vector<int> to_root_;   ///< places, each before the one it drains to
 };
 
 }  // namespace suffuse

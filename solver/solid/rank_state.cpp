@@ -49,8 +49,8 @@ RankState::RankState(const Grid<Dim>& grid, const SoilMap<Dim>& soils)
 
 bool RankState::all_equal(std::uint64_t number) const {
   // Halves, which a double holds exactly.
-  const double high = static_cast<double>(number >> 32U);
-  const double low = static_cast<double>(number & 0xffffffffU);
+  const auto high = static_cast<double>(number >> 32U);
+  const auto low = static_cast<double>(number & 0xffffffffU);
   std::array<double, 4> extremes{high, -high, low, -low};
   ranks_.largest(extremes);
   return extremes[0] == -extremes[1] && extremes[2] == -extremes[3];

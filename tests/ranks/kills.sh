@@ -32,7 +32,7 @@ while [ "$killed" -lt "$kills" ]; do
   "$programs/suffuse-solver" case.h5 -o shared --quiet $mode --ranks $ranks --checkpoint-every 0.1 2> log &
   launcher=$!
   random 10 > number
-  sleep "$(($(cat number) / 5)).$((2 * ($(cat number) % 5) + 1))"
+  sleep "$((($(cat number) + 3) / 5)).$((2 * (($(cat number) + 3) % 5) + 1))"
   seed=$((seed + attempt))
   random 5 > number
   way=$(cat number)

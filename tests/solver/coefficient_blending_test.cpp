@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "flow/implicit_thresholds.hpp"
+#include "mixed/implicit_thresholds.hpp"
 #include "results/state_archive.hpp"
 #include "solver/flow_model.hpp"
 
@@ -114,12 +114,12 @@ TEST_F(CoefficientBlendingTest, StepsOfGivenLengthTakeThemAsTheyAre) {
 TEST_F(CoefficientBlendingTest, ADensityThatKeepsRisingIsExpectedTo) {
   // Transport adds 3 kg/m3 per second in element 4.
   CoefficientBlending<2> blending(all_settings);
-  EXPECT_EQ(blending.learn(now, 2.0, 1.0), 0.0);
+  EXPECT_EQ(blending.learn(m.grid, now, 2.0, 1.0), 0.0);
   FlowCoefficients<2> expected = now;
   expected.mixture_density[4] -= 3.0 * 2.0;
   blending.expect(expected);
   EXPECT_TRUE(blending.expects());
-  EXPECT_LE(blending.learn(now, 2.0, 1.0), 1e-15);
+  EXPECT_LE(blending.learn(m.grid, now, 2.0, 1.0), 1e-15);
   EXPECT_FALSE(blending.expects());
   const FlowCoefficients<2> later = blended(blending, 5.0);
   EXPECT_NEAR(later.mixture_density[4] - now.mixture_density[4], 15.0, 1e-9);
@@ -134,7 +134,7 @@ TEST_F(CoefficientBlendingTest, ScatterAveragesOut) {
     FlowCoefficients<2> expected = now;
     expected.mixture_density[4] -= 3.0 + (step % 2 == 0 ? 30.0 : -30.0);
     blending.expect(expected);
-    blending.learn(now, 1.0, 0.02);
+    blending.learn(m.grid, now, 1.0, 0.02);
   }
   const double drift = blended(blending, 1.0).mixture_density[4] - now.mixture_density[4];
   EXPECT_NEAR(drift, 3.0, 0.02 * 30.0);
@@ -147,7 +147,7 @@ TEST_F(CoefficientBlendingTest, TellsHowWrongResistancesWere) {
   expected.drag[5] *= 1.2;
   expected.porosity[5] *= 1.2;
   blending.expect(expected);
-  EXPECT_NEAR(blending.learn(now, 1.0, 1.0), 0.03, 1e-12);
+  EXPECT_NEAR(blending.learn(m.grid, now, 1.0, 1.0), 0.03, 1e-12);
 }
 
 TEST_F(CoefficientBlendingTest, GoesOnAsArchived) {
@@ -155,7 +155,7 @@ TEST_F(CoefficientBlendingTest, GoesOnAsArchived) {
   FlowCoefficients<2> expected = now;
   expected.mixture_density[4] -= 6.0;
   blending.expect(expected);
-  blending.learn(now, 2.0, 1.0);
+  blending.learn(m.grid, now, 2.0, 1.0);
   blending.record(before);
   blending.finish(2.0);
   StateArchive stored;

@@ -26,7 +26,7 @@ FlowScales scales_of(const std::vector<BoundaryCondition>& boundaries) {
   const BoundaryValues<2> values(c, m.grid);
   m.forcing.conditions = values.at(0.0);
   ImplicitMixed<2> scheme(m.grid, {}, Vector<2>::Zero());
-  return find_scales(scheme, m.forcing, values, scene.time.end, false);
+  return find_scales(m.grid, scheme, m.forcing, values, scene.time.end, false);
 }
 
 TEST(FlowScales, AreThoseOfTheSteadyFlow) {
@@ -35,9 +35,9 @@ TEST(FlowScales, AreThoseOfTheSteadyFlow) {
   EXPECT_NEAR(scales.flux, 0.02 * gradient * 0.25, 1e-12);
   EXPECT_NEAR(scales.pressure, 6e3, 1e-9);
   EXPECT_TRUE(scales.has_bounds);
-  EXPECT_EQ(scales.overshoot({0.0, 5.0, 6e3}), 0.0);
-  EXPECT_NEAR(scales.overshoot({0.0, 5.0, 6.3e3}), 0.05, 1e-12);
-  EXPECT_NEAR(scales.overshoot({-600.0, 5.0, 6.3e3}), 0.1, 1e-12);
+  EXPECT_EQ(scales.overshoot(Ranks(), {0.0, 5.0, 6e3}), 0.0);
+  EXPECT_NEAR(scales.overshoot(Ranks(), {0.0, 5.0, 6.3e3}), 0.05, 1e-12);
+  EXPECT_NEAR(scales.overshoot(Ranks(), {-600.0, 5.0, 6.3e3}), 0.1, 1e-12);
 }
 
 TEST(FlowScales, SeeBoundaryValuesToCome) {
@@ -53,7 +53,7 @@ TEST(FlowScales, PrescribedFluxesLeavePressuresWithoutBounds) {
       scales_of({model::flux_on("top", 0.012), model::pressure_on("bottom", 0.0)});
   EXPECT_NEAR(scales.flux, 0.012 * 0.25, 1e-12);
   EXPECT_FALSE(scales.has_bounds);
-  EXPECT_EQ(scales.overshoot({-1e9, 1e9}), 0.0);
+  EXPECT_EQ(scales.overshoot(Ranks(), {-1e9, 1e9}), 0.0);
 }
 
 TEST(FlowScales, FluxesWithoutASteadyFlowLeaveThemToTheFlow) {
@@ -65,7 +65,9 @@ TEST(FlowScales, FluxesWithoutASteadyFlowLeaveThemToTheFlow) {
   EXPECT_GT(scales.flux, 0.0);
   EXPECT_LE(scales.flux, 1e-9);
   EXPECT_NEAR(scales.pressure, 2e-5, 1e-12);
-  scales.include({0.0, 100.0}, {0.003});
+  std::vector<double> pressure(m.grid.face_count(), 0.0);
+  pressure.back() = 100.0;
+  scales.include(m.grid, pressure, std::vector<double>(m.grid.face_count(), 0.003));
   EXPECT_EQ(scales.flux, 0.003);
   EXPECT_EQ(scales.pressure, 100.0);
 }
@@ -81,7 +83,7 @@ TEST(FlowScales, SoilThatDrainsDoesSoStillWhereNoSteadyFlowExists) {
   soils.retention.assign(m.mesh.elements.size(), model::gardner(1.0));
   soils.head_per_pressure = 1.0 / (1000.0 * conductivity_gravity);
   ImplicitMixed<2> scheme(m.grid, {}, Vector<2>::Zero(), soils);
-  EXPECT_EQ(find_scales(scheme, m.forcing, values, scene.time.end, false).flux, 0.0);
+  EXPECT_EQ(find_scales(m.grid, scheme, m.forcing, values, scene.time.end, false).flux, 0.0);
   EXPECT_TRUE(scheme.has_retention());
 }
 

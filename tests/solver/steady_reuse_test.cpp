@@ -19,7 +19,7 @@ struct SteadyReuseTest : testing::Test {
 
   /// Whether a flow that was kept for the model's coefficients is still kept for the changed ones.
   [[nodiscard]] bool goes_on() const {
-    SteadyReuse<2> reuse(settings);
+    SteadyReuse<2> reuse(m.grid, settings);
     reuse.start(m.forcing.coefficients);
     reuse.check(changed);
     return reuse.active();
@@ -27,7 +27,7 @@ struct SteadyReuseTest : testing::Test {
 };
 
 TEST_F(SteadyReuseTest, StartsAndStops) {
-  SteadyReuse<2> reuse(settings);
+  SteadyReuse<2> reuse(m.grid, settings);
   EXPECT_FALSE(reuse.active());
   reuse.check(changed);
   EXPECT_FALSE(reuse.active());
@@ -77,14 +77,15 @@ TEST_F(SteadyReuseTest, QuadraticDragEndsIt) {
 }
 
 TEST_F(SteadyReuseTest, SteadyIsAFiftiethOfTheTolerance) {
-  const SteadyReuse<2> reuse(settings);
+  const SteadyReuse<2> reuse(m.grid, settings);
   const std::vector<double> a{1.0, 2.0, 3.0};
   EXPECT_TRUE(reuse.is_close(a, {1.0, 2.0 - 1.9e-5 * 10.0, 3.0}, 10.0));
   EXPECT_FALSE(reuse.is_close(a, {1.0, 2.0 - 2.1e-5 * 10.0, 3.0}, 10.0));
 }
 
 TEST_F(SteadyReuseTest, SourcesOfAllElementsTogetherAskForAnUpdate) {
-  const SteadyReuse<2> reuse(settings);
+  const FlowModel hundred(model::column_mesh(10, 5));
+  const SteadyReuse<2> reuse(hundred.grid, settings);
   const std::vector<double> before(100, 0.0);
   EXPECT_FALSE(reuse.needs_update(before, std::vector<double>(100, 0.9e-7), 1.0));
   EXPECT_TRUE(reuse.needs_update(before, std::vector<double>(100, 1.1e-7), 1.0));
@@ -96,7 +97,7 @@ TEST_F(SteadyReuseTest, BoundaryValuesRestWhereTheirLineIsLevel) {
   scene.boundaries = {model::pressure_on("top", 6e3), model::pressure_on("bottom", 0.0)};
   const Case<2> constant = model::make_case(m.mesh, scene);
   const BoundaryValues<2> level(constant, m.grid);
-  EXPECT_TRUE(boundary_values_rest(level, level.at(5.0), 5.0, 120.0));
+  EXPECT_TRUE(boundary_values_rest(m.grid, level, level.at(5.0), 5.0, 120.0));
 
   scene.boundaries[0].pressure = TimeFunction({{0.0, 0.0}, {20.0, 6e3}, {40.0, 6e3}, {50.0, 0.0}});
   const Case<2> varying = model::make_case(m.mesh, scene);
@@ -108,17 +109,17 @@ TEST_F(SteadyReuseTest, BoundaryValuesRestWhereTheirLineIsLevel) {
                                     {45.0, false},
                                     {50.0, true},
                                     {110.0, true}}) {
-    EXPECT_EQ(boundary_values_rest(values, values.at(time), time, 120.0), rests) << time;
+    EXPECT_EQ(boundary_values_rest(m.grid, values, values.at(time), time, 120.0), rests) << time;
   }
 }
 
 TEST_F(SteadyReuseTest, GoesOnAsArchived) {
-  SteadyReuse<2> reuse(settings);
+  SteadyReuse<2> reuse(m.grid, settings);
   reuse.start(m.forcing.coefficients);
   StateArchive stored;
   reuse.archive(stored);
   StateArchive restored(stored.finish());
-  SteadyReuse<2> other(settings);
+  SteadyReuse<2> other(m.grid, settings);
   other.archive(restored);
   restored.finish();
   EXPECT_TRUE(other.active());

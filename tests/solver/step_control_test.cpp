@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
-#include "flow/implicit_thresholds.hpp"
+#include "mixed/implicit_thresholds.hpp"
 #include "results/state_archive.hpp"
 #include "solver/flow_model.hpp"
 
