@@ -148,7 +148,7 @@ class Run final : public OutputSink<Dim> {
     // The clock of rank 0 decides.
     const bool is_due =
         is_first_ && run_.checkpoint_every > 0.0 && since_saved_.seconds() >= run_.checkpoint_every;
-    if (largest_of_all(ranks_, is_due ? 1.0 : 0.0) > 0.0) write_checkpoint();
+    if (any_of_all(ranks_, is_due)) write_checkpoint();
     return true;
   }
 

@@ -16,9 +16,7 @@ void RunLoop<Dim>::run(OutputSink<Dim>& sink) {
         "has come to rest");
   }
   if (at_the_start) output(sink);
-  const auto interrupted_anywhere = [this] {
-    return largest_of_all(model_->ranks(), interrupted() ? 1.0 : 0.0) > 0.0;
-  };
+  const auto interrupted_anywhere = [this] { return any_of_all(model_->ranks(), interrupted()); };
   bool is_running = true;
   while (is_running && !schedule_.finished() && !interrupted_anywhere()) {
     schedule_.follow_failure(model_->time(), model_->solid().has_inertia(), model_->last_step());

@@ -115,20 +115,21 @@ std::vector<char> FluxCorrection<Dim>::choose_faces() const {
     in_tree[f] = 1;
     reaches[joined.find(grid_.face_left[f])] = left == nothing ? right : left;
     if (crossing_.empty() || left == nothing || right == nothing) continue;
-    edges.push_back({conductance[f], face_number(f), left, right});
+    edges.push_back({conductance[f], grid_.face_number(f), left, right});
     doubtful.push_back(f);
   }
   if (grid_.ranks().count() > 1) {
     for (const int f : crossing_) {
       if (!grid_.owns_face(f)) continue;
-      edges.push_back({conductance[f], face_number(f), grid_.element_number(grid_.face_left[f]),
+      edges.push_back({conductance[f], grid_.face_number(f),
+                       grid_.element_number(grid_.face_left[f]),
                        grid_.element_number(grid_.beyond(f))});
     }
     const std::vector<long> chosen = heaviest_forest(grid_.ranks(), edges);
     for (const std::vector<int>* faces :
          {static_cast<const std::vector<int>*>(&doubtful), &crossing_}) {
       for (const int f : *faces) {
-        in_tree[f] = std::ranges::binary_search(chosen, face_number(f)) ? 1 : 0;
+        in_tree[f] = std::ranges::binary_search(chosen, grid_.face_number(f)) ? 1 : 0;
       }
     }
   }
@@ -182,8 +183,9 @@ void FluxCorrection<Dim>::join_parts(const std::vector<char>& in_tree) {
   std::vector<SharedEdge> edges;
   for (const int f : crossing_) {
     if (in_tree[f] == 0 || !grid_.owns_face(f)) continue;
-    edges.push_back(
-        {.number = face_number(f), .a = part_[grid_.face_left[f]], .b = part_[grid_.beyond(f)]});
+    edges.push_back({.number = grid_.face_number(f),
+                     .a = part_[grid_.face_left[f]],
+                     .b = part_[grid_.beyond(f)]});
   }
   parts_ = SharedForest(grid_.ranks(), edges, roots);
   passages_.clear();
@@ -192,7 +194,7 @@ void FluxCorrection<Dim>::join_parts(const std::vector<char>& in_tree) {
     const bool left = grid_.element_rows().owns(grid_.face_left[f]);
     const int own = left ? grid_.face_left[f] : grid_.beyond(f);
     const int other = left ? grid_.beyond(f) : grid_.face_left[f];
-    const bool is_inflow = parts_.drain(part_[other]) == face_number(f);
+    const bool is_inflow = parts_.drain(part_[other]) == grid_.face_number(f);
     passages_.push_back({f, own, is_inflow ? part_[other] : part_[own], is_inflow});
     if (is_inflow) continue;
     drain_[own] = f;

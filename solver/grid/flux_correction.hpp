@@ -66,9 +66,6 @@ class FluxCorrection {
   /// Finds the parts of the tree on this rank and how they drain.
   void join_parts(const std::vector<char>& in_tree);
   [[nodiscard]] std::vector<double> face_conductances() const;
-  [[nodiscard]] long face_number(int face) const {
-    return grid_.face_numbers().empty() ? face : grid_.face_numbers()[face];
-  }
   /// Element beyond a passable face, with the outside as one more element, the last.
   [[nodiscard]] int beyond(int face) const {
     return grid_.is_border(face) ? grid_.mesh.element_count() : grid_.beyond(face);

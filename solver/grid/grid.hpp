@@ -45,6 +45,10 @@ struct Grid {
   [[nodiscard]] long element_number(int element) const {
     return element_number_.empty() ? element : element_number_[static_cast<std::size_t>(element)];
   }
+  /// Number of a face in the whole mesh.
+  [[nodiscard]] long face_number(int face) const {
+    return face_number_.empty() ? face : face_number_[static_cast<std::size_t>(face)];
+  }
   // The rows themselves, to fetch values from other ranks.
   [[nodiscard]] const OwnRows& element_rows() const { return elements_; }
   [[nodiscard]] const OwnRows& face_rows() const { return faces_; }

@@ -17,9 +17,7 @@ SharedSystem::SharedSystem(const Ranks& ranks, const std::vector<long>& numbers,
       last_(last),
       factor_(ranks.symmetric_factor()),
       residual_(static_cast<std::size_t>(last - first)) {
-  ExactSum count;
-  count.add(last - first);
-  whole_ = static_cast<long>(values_of_all(ranks, {count}).front());
+  whole_ = static_cast<long>(sum_of_all(ranks, last - first));
 }
 
 void SharedSystem::factorise(const Eigen::SparseMatrix<double>& matrix) {
@@ -29,7 +27,7 @@ void SharedSystem::factorise(const Eigen::SparseMatrix<double>& matrix) {
   const int end = matrix.outerIndexPtr()[last_];
   const bool same =
       !factored_.empty() && std::equal(factored_.begin(), factored_.end(), values + begin);
-  if (smallest_of_all(ranks_, same ? 1.0 : 0.0) > 0.0) return;
+  if (!any_of_all(ranks_, !same)) return;
   factored_.assign(values + begin, values + end);
   OwnMatrixRows own;
   own.whole = whole_;

@@ -203,7 +203,7 @@ ImplicitMixed<Dim>::~ImplicitMixed() = default;
 template <int Dim>
 void ImplicitMixed<Dim>::set_up(const std::vector<FaceCondition>& conditions) {
   const bool fit = parts_ && parts_->faces.fit(conditions);
-  if (smallest_of_all(model_.grid.ranks(), fit ? 1.0 : 0.0) > 0.0) return;
+  if (!any_of_all(model_.grid.ranks(), !fit)) return;
   earlier_counts_ = counts();
   parts_ = std::make_unique<Parts>(model_, conditions);
   last_steady_.face_pressure.assign(conditions.size(), 0.0);

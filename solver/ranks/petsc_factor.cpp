@@ -11,13 +11,12 @@
 namespace suffuse {
 namespace {
 
-/// The errors of a solution and of its preconditioner are those of refinement steps, which the
-/// caller repeats.
+/// The caller refines the solution: it need not be more accurate than this.
 constexpr double accuracy = 1e-6;
 constexpr int most_iterations = 300;
 constexpr const char* prefix = "suffuse_flow_";
 
-/// Measured on mixed elements: docs/decisions.md.
+/// For the matrices of mixed elements: docs/decisions.md.
 void set_options() {
   constexpr const char* options[][2] = {{"pc_hypre_boomeramg_strong_threshold", "0.25"},
                                         {"pc_hypre_boomeramg_coarsen_type", "HMIS"},

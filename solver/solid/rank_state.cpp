@@ -7,14 +7,12 @@ namespace {
 
 SharedState::Rows rows_of(const Ranks& ranks, const std::vector<long>& numbers,
                           const NumberRange& own) {
-  ExactSum count;
-  count.add(*own.end() - *own.begin());
   std::vector<SharedState::Rows::Held> held;
   held.reserve(numbers.size());
   for (const long number : numbers) held.push_back({number, static_cast<int>(held.size())});
   // Faces at the fringe are in another order than in the whole mesh.
   std::ranges::sort(held, {}, &SharedState::Rows::Held::number);
-  return {std::move(held), static_cast<long>(values_of_all(ranks, {count}).front()),
+  return {std::move(held), static_cast<long>(sum_of_all(ranks, *own.end() - *own.begin())),
           static_cast<std::size_t>(*own.begin()), static_cast<std::size_t>(*own.end())};
 }
 
