@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -240,9 +241,11 @@ int run(int argc, char** argv, std::shared_ptr<const Ranks> ranks) {
   app.add_option("--threads", arguments.solver.threads, "Threads; results do not depend on them")
       ->check(CLI::Range(1, 1024));
   if (ranks->count() == 1) {
+    // They are processes on this machine: many more than it has cores would bring it down.
+    const int most = std::max(16, static_cast<int>(std::thread::hardware_concurrency()));
     app.add_option("--ranks", arguments.ranks,
                    "Share the run among this many processes, with mpirun and suffuse-solver-mpi")
-        ->check(CLI::Range(1, 100000))
+        ->check(CLI::Range(1, most))
         ->type_name("N");
   }
   app.add_flag("--explain", arguments.explain,

@@ -83,7 +83,10 @@ int launch_ranks(int ranks, const std::vector<std::string>& arguments) {
   // A process that a signal ends while it starts may leave mpirun waiting for ever.
   words.insert(words.end(), {"sh", "-c", "trap '' USR1; exec \"$0\" \"$@\"", shared_solver()});
   words.insert(words.end(), arguments.begin(), arguments.end());
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, ask_to_stop);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    // A program started by nohup must continue to ignore SIGHUP.
+    if (std::signal(signal, ask_to_stop) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
   const pid_t process = ::fork();
   if (process < 0) throw FileError(std::string("mpirun: ") + std::strerror(errno));
   if (process == 0) become(std::move(words));

@@ -234,9 +234,10 @@ MpiProcess::MpiProcess() {
     ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     ::setenv("OMPI_MCA_pml", "ob1", 0);
     ::setenv("OMPI_MCA_btl", "self", 0);
+  } else {
+    // A rank does not outlive mpirun. A process without mpirun may outlive its shell.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   }
-  // A rank does not outlive mpirun.
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // One thread of each rank calls MPI, while another may write files.
   PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_FUNNELED;
   petsc_check(PetscInitializeNoArguments(), "PetscInitialize");
