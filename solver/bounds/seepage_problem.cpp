@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "bounds/conforming_head.hpp"
-#include "mixed/flow_values.hpp"
+#include "grid/field_values.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "mixed/flow_values.hpp"
+#include "grid/field_values.hpp"
 #include "scene/scene.hpp"
 
 namespace suffuse {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "common/errors.hpp"
-#include "mixed/flow_values.hpp"
+#include "grid/field_values.hpp"
 #include "mixed/implicit_thresholds.hpp"
 #include "physics/drag.hpp"
 

@@ -297,28 +297,36 @@ template <int Dim>
 double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, double dt) const {
   using Span = std::span<const double>;
   const auto before = [&](const auto& field) { return previous_ ? field(*previous_) : Span(); };
-  const auto flux = [](const MixedFlow<Dim>& flow) { return Span(flow.flux_through); };
+  const Ranks& ranks = this->grid().ranks();
   if (scheme_.is_nonlinear()) {
     // Fronts and seepage faces are sharp: the error is the displaced volume.
-    const auto air = [](const MixedState<Dim>& state) {
-      return state.air.empty() ? Span()
-                               : Span(state.air.front().data(), state.air.size() * (Dim + 1));
+    const NumberRange faces = this->grid().own_faces();
+    const auto own_flux = [&](const std::vector<double>& values) {
+      return Span(values).subspan(*faces.begin(), *faces.end() - *faces.begin());
+    };
+    const auto flux = [&](const MixedFlow<Dim>& flow) { return own_flux(flow.flux_through); };
+    const NumberRange elements = this->grid().own_elements();
+    const auto air = [&](const MixedState<Dim>& state) {
+      if (state.air.empty()) return Span();
+      const double* values = state.air.front().data();
+      return Span(values + *elements.begin() * (Dim + 1), values + *elements.end() * (Dim + 1));
     };
     const auto air_of = [&](const MixedFlow<Dim>& flow) { return air(flow.state); };
-    const double largest = std::max(scales_.flux_sum, sum_of_magnitudes(step.flux_through));
+    const double sum = sum_of_all(ranks, sum_of_magnitudes(own_flux(step.flux_through)));
     const double passing = implicit_thresholds.passing_flux * this->scene().time.end;
-    const double flux_scale = largest * (1.0 + passing / dt);
-    return control_.error(
-        start, dt,
-        {{before(flux), now_.flux_through, step.flux_through, flux_scale, true},
-         {before(air_of), air(now_.state), air(step.end), scales_.pore_volume, true}});
+    const double flux_scale = std::max(scales_.flux_sum, sum) * (1.0 + passing / dt);
+    const double of_flux = control_.error(
+        start, dt, {{before(flux), flux(now_), own_flux(step.flux_through), flux_scale, true}});
+    const double of_air = control_.error(
+        start, dt, {{before(air_of), air(now_.state), air(step.end), scales_.pore_volume, true}});
+    return std::max(sum_of_all(ranks, of_flux), sum_of_all(ranks, of_air));
   }
+  const auto flux = [](const MixedFlow<Dim>& flow) { return Span(flow.flux_through); };
   const auto pressure = [](const MixedFlow<Dim>& flow) { return Span(flow.state.face_pressure); };
   const ControlledField of_pressure{before(pressure), now_.state.face_pressure,
                                     step.end.face_pressure, scales_.pressure};
   // A sudden load drives an infinite flux out of its boundary for an instant: only pressures count.
   if (solid_.moves()) return control_.error(start, dt, {of_pressure});
-  const Ranks& ranks = this->grid().ranks();
   const double flux_scale =
       std::max(scales_.flux, largest_of_all(ranks, largest_magnitude(step.flux_through)));
   const double own = control_.error(

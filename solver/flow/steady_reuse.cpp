@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mixed/flow_values.hpp"
+#include "grid/field_values.hpp"
 #include "mixed/implicit_thresholds.hpp"
 
 namespace suffuse {

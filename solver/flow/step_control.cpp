@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "common/errors.hpp"
+#include "grid/field_values.hpp"
 #include "grid/parallel.hpp"
-#include "mixed/flow_values.hpp"
 #include "mixed/implicit_thresholds.hpp"
 
 namespace suffuse {

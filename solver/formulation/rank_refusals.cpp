@@ -27,16 +27,6 @@ void refuse_on_ranks(const Case<Dim>& c, bool transports) {
   const bool sweeps =
       !is_explicit && transports && scene.time.transport != TransportScheme::explicit_steps;
   refuse(sweeps, "time.transport", "transport that may be implicit", "\"explicit\"");
-  refuse(!is_explicit && std::ranges::any_of(scene.soils, &Soil::drains), "soil",
-         "a soil with retention", "saturated soil");
-  const bool ergun =
-      std::ranges::find(scene.soils, SoilDrag::ergun, &Soil::drag) != scene.soils.end();
-  refuse(!is_explicit && ergun, "soil", "drag = \"ergun\" with the implicit scheme", "\"darcy\"");
-  if (!is_explicit) {
-    const std::vector<FaceCondition> conditions = face_conditions(c, Grid<Dim>(c.mesh));
-    refuse(std::ranges::any_of(conditions, &FaceCondition::switches), "boundary",
-           "faces that open, close or fall dry", "boundaries whose faces keep their kind");
-  }
   refuse(scene.mesh.error.has_value(), "mesh.error", "bounds of discharges", "no such key");
   refuse(!scene.initial_from.empty(), "initial.from", "a run", "no run");
   refuse(!scene.output.sections.empty(), "output.section", "sections", "no sections");

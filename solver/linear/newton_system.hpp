@@ -38,9 +38,10 @@ class NewtonSystem {
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
 
   /// The factor is made again from its values, with the same bits; `pattern` is that of the
-  /// matrices.
-  void archive(auto& archive, const Eigen::SparseMatrix<double>& pattern) {
+  /// matrices. Without `is_used` what is restored is dropped.
+  void archive(auto& archive, const Eigen::SparseMatrix<double>& pattern, bool is_used = true) {
     archive(counts_, factored_);
+    if (archive.restores() && !is_used) factored_.resize(0);
     if (!archive.restores() || factored_.size() == 0) return;
     if (factored_.size() != pattern.nonZeros()) archive.misfit();
     Eigen::SparseMatrix<double> matrix = pattern;

@@ -8,16 +8,28 @@
 
 namespace suffuse {
 
-SharedSystem::SharedSystem(const Ranks& ranks, const std::vector<long>& numbers, int first,
-                           int last)
-    : ranks_(ranks),
-      numbers_(numbers),
-      rows_(ranks.rows(numbers, first, last)),
-      first_(first),
-      last_(last),
-      factor_(ranks.symmetric_factor()),
-      residual_(static_cast<std::size_t>(last - first)) {
-  whole_ = static_cast<long>(sum_of_all(ranks, last - first));
+SharedSystem::SharedSystem(const Ranks& ranks, const OwnRows& mesh_rows,
+                           const std::vector<int>& unknown)
+    : ranks_(ranks), factor_(ranks.symmetric_factor()) {
+  const auto has_unknown = [&](int row) { return unknown[row] >= 0; };
+  for (int row = 0; row < *mesh_rows.own().end(); ++row) {
+    if (!has_unknown(row)) continue;
+    ++last_;
+    if (!mesh_rows.owns(row)) ++first_;
+  }
+  const int own = last_ - first_;
+  whole_ = static_cast<long>(sum_of_all(ranks, own));
+  residual_.resize(static_cast<std::size_t>(own));
+  const long before = ranks.before(own);
+  std::vector<long> of_row(unknown.size(), -1);
+  for (const int row : mesh_rows.own()) {
+    if (has_unknown(row)) of_row[row] = before + unknown[row] - first_;
+  }
+  mesh_rows.exchange(of_row);
+  for (int row = 0; row < static_cast<int>(unknown.size()); ++row) {
+    if (has_unknown(row)) numbers_.push_back(of_row[row]);
+  }
+  rows_ = ranks.rows(numbers_, first_, last_);
 }
 
 void SharedSystem::factorise(const Eigen::SparseMatrix<double>& matrix) {
@@ -29,16 +41,38 @@ void SharedSystem::factorise(const Eigen::SparseMatrix<double>& matrix) {
       !factored_.empty() && std::equal(factored_.begin(), factored_.end(), values + begin);
   if (!any_of_all(ranks_, !same)) return;
   factored_.assign(values + begin, values + end);
+  ++counts_.factorisations;
+  // A row of a symmetric matrix is its column.
+  factor_->factorise(own_rows(matrix));
+}
+
+template <class RowMatrix>
+OwnMatrixRows SharedSystem::own_rows(const RowMatrix& matrix) const {
+  const int* begin = matrix.outerIndexPtr();
   OwnMatrixRows own;
   own.whole = whole_;
-  for (int row = first_; row <= last_; ++row) {
-    own.begin.push_back(matrix.outerIndexPtr()[row] - begin);
+  for (int row = first_; row <= last_; ++row) own.begin.push_back(begin[row] - begin[first_]);
+  own.column.reserve(own.begin.back());
+  for (int k = begin[first_]; k < begin[last_]; ++k) {
+    own.column.push_back(numbers_[matrix.innerIndexPtr()[k]]);
   }
-  // A row of a symmetric matrix is its column.
-  own.column.reserve(factored_.size());
-  for (int k = begin; k < end; ++k) own.column.push_back(numbers_[matrix.innerIndexPtr()[k]]);
-  own.value = factored_;
-  factor_->factorise(own);
+  own.value.assign(matrix.valuePtr() + begin[first_], matrix.valuePtr() + begin[last_]);
+  return own;
+}
+
+Eigen::VectorXd SharedSystem::solve_near(const Eigen::SparseMatrix<double>& nearly,
+                                         const Eigen::SparseMatrix<double>& tangent,
+                                         const Eigen::VectorXd& rhs) {
+  ++counts_.solves;
+  factorise(nearly);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = tangent;
+  const std::vector<double> own(rhs.data() + first_, rhs.data() + last_);
+  std::vector<double> found;
+  counts_.iterations += factor_->solve_near(own_rows(rows), own, found);
+  std::vector<double> x(rhs.size());
+  std::ranges::copy(found, x.begin() + first_);
+  rows_.exchange(x);
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), rhs.size());
 }
 
 double SharedSystem::find_residual(const SymmetricSystem& system, const std::vector<double>& x) {
@@ -73,7 +107,7 @@ Eigen::VectorXd SharedSystem::solve(const SymmetricSystem& system) {
   // some that have not halved it, the round-off of the residual is reached.
   constexpr double gain = 0.5;
   constexpr int most_without_gain = 3;
-  ++solves_;
+  ++counts_.solves;
   factorise(system.matrix);
   std::vector<double> x(system.guess.data(), system.guess.data() + system.guess.size());
   rows_.exchange(x);
@@ -82,7 +116,7 @@ Eigen::VectorXd SharedSystem::solve(const SymmetricSystem& system) {
   std::vector<double> best = x;
   std::vector<double> correction;
   for (int without_gain = 0; excess > 1.0 && without_gain < most_without_gain;) {
-    iterations_ += factor_->solve(residual_, correction);
+    counts_.iterations += factor_->solve(residual_, correction);
     for (int row = first_; row < last_; ++row) x[row] += correction[row - first_];
     rows_.exchange(x);
     excess = find_residual(system, x);

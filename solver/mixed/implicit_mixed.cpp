@@ -166,10 +166,12 @@ StageEnd<Dim> ImplicitMixed<Dim>::draining_steady(const FlowForcing<Dim>& forcin
   // Pseudo-time steps of growing length, from the saturated state.
   double pores = 0.0;
   double fastest = parts_->guess.flux_scale;
-  for (int e = 0; e < model_.grid.mesh.element_count(); ++e) {
+  for (const int e : model_.grid.own_elements()) {
     pores += model_.grid.volume[e] * c.porosity[e];
     fastest = std::max(fastest, model_.gravity_flux(e, c));
   }
+  pores = sum_of_all(model_.grid.ranks(), pores);
+  fastest = largest_of_all(model_.grid.ranks(), fastest);
   if (fastest == 0.0) return solve_stage(state, infinity, forcing, last_steady_flux_);
   const double filling = pores / fastest;
   double duration = filling;
@@ -219,7 +221,7 @@ std::vector<double> ImplicitMixed<Dim>::stages() const {
 
 template <int Dim>
 bool ImplicitMixed<Dim>::is_nonlinear() const {
-  return has_retention() || (parts_ && !parts_->faces.switching().empty());
+  return has_retention() || (parts_ && parts_->faces.any_switch());
 }
 
 template <int Dim>

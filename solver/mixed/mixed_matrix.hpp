@@ -62,6 +62,7 @@ class MixedMatrix {
   [[nodiscard]] int unknowns() const { return unknowns_; }
   /// Number of a face's unknown; -1 where its pressure is always prescribed.
   [[nodiscard]] int unknown(int face) const { return unknown_[face]; }
+  [[nodiscard]] const std::vector<int>& unknowns_of_faces() const { return unknown_; }
 
   /// Assembles a law and the storage of each element at each of its faces, m3/(s Pa): `storage` per
   /// element, in addition `side_storage` per side of an element, and `mean_storage`, which acts on

@@ -81,18 +81,21 @@ struct MixedStage {
   void for_each_face(const auto& body) const {
     for_each_index(model.grid.face_count(), model.settings.threads, body);
   }
-  /// The largest value of elements or faces; 0 where none is larger.
+  /// The largest value of all elements or faces; 0 where none is larger. A rank looks at its own
+  /// faces: what comes from both sides of a face is not complete at others.
   [[nodiscard]] double largest_of_elements(const auto& value) const {
     const int elements = model.grid.mesh.element_count();
     return largest_of_all(model.grid.ranks(),
                           largest_of(elements, model.settings.threads, 0.0, value));
   }
   [[nodiscard]] double largest_of_faces(const auto& value) const {
-    return largest_of_all(model.grid.ranks(),
-                          largest_of(model.grid.face_count(), model.settings.threads, 0.0, value));
+    const int first = *model.grid.own_faces().begin();
+    const int own = *model.grid.own_faces().end() - first;
+    return largest_of_all(model.grid.ranks(), largest_of(own, model.settings.threads, 0.0,
+                                                         [&](int i) { return value(first + i); }));
   }
   /// Whether the equations depend on the pressure itself, through retention or seepage faces.
-  [[nodiscard]] bool is_nonlinear() const { return retains || !faces.switching().empty(); }
+  [[nodiscard]] bool is_nonlinear() const { return retains || faces.any_switch(); }
   [[nodiscard]] bool is_steady() const { return !std::isfinite(duration); }
   /// Whether an element stores liquid as its pressure rises.
   [[nodiscard]] bool stores(int e) const {

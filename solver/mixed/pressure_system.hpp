@@ -16,7 +16,8 @@ template <int Dim>
 class PressureSystem {
  public:
   PressureSystem(const MixedModel<Dim>& model, const std::vector<FaceKind>& kinds)
-      : matrix_(model.grid, kinds, model.settings.threads),
+      : ranks_(model.grid.ranks()),
+        matrix_(model.grid, kinds, model.settings.threads),
         solver_(model.settings.threads, LagLimits{}, flow_factor(Dim, model.grid.face_count())),
         newton_(newton_factor(Dim, model.grid.face_count())),
         face_push_(model.grid.volume.size()),
@@ -25,14 +26,15 @@ class PressureSystem {
         load_(matrix_.unknowns()),
         guess_(matrix_.unknowns()),
         tolerance_(matrix_.unknowns()) {
-    if (model.grid.ranks().count() > 1) share_unknowns(model.grid);
+    if (ranks_.count() > 1) {
+      shared_.emplace(ranks_, model.grid.face_rows(), matrix_.unknowns_of_faces());
+    }
   }
 
   [[nodiscard]] MixedMatrix<Dim>& matrix() { return matrix_; }
-  [[nodiscard]] NewtonSystem& newton() { return newton_; }
   [[nodiscard]] SolveCounts counts() const {
     SolveCounts result = solver_.counts();
-    if (shared_) result += {.solves = shared_->solves(), .iterations = shared_->iterations()};
+    if (shared_) result += shared_->counts();
     return result += newton_.counts();
   }
   /// Assembles the matrix for the law of the stage.
@@ -53,6 +55,23 @@ class PressureSystem {
       if (!stage.faces.is_held(f)) stage.pressure.rise[f] = solution[matrix_.unknown(f)];
     });
   }
+  /// Sets `step` to the solution for the residual: of the assembled matrix, or of `tangent`, which
+  /// is near it. Throws NumericalError.
+  void solve_newton(const std::optional<Eigen::SparseMatrix<double>>& tangent,
+                    Eigen::VectorXd& step) {
+    const Eigen::SparseMatrix<double>& nearly = matrix_.values();
+    if (shared_) {
+      step = tangent ? shared_->solve_near(nearly, *tangent, load_)
+                     : shared_->solve({nearly, load_, guess_, tolerance_});
+      return;
+    }
+    newton_.factorise(nearly);
+    if (tangent) {
+      newton_.solve_tangent(*tangent, load_, step);
+    } else {
+      newton_.solve(nearly, load_, step);
+    }
+  }
   /// Finds pressures and fluxes of a stage whose law does not depend on them.
   void solve_linear(MixedStage<Dim>& stage) {
     const MixedModel<Dim>& model = stage.model;
@@ -70,9 +89,9 @@ class PressureSystem {
     solve(stage);
     stage.flux = stage.found_flux();
   }
-  /// Residual of the balance at each unknown, m3/s, at the reference of the pressures; zero at
-  /// seepage faces that are held.
-  const Eigen::VectorXd& find_load(const MixedStage<Dim>& stage) {
+  /// Finds the residual of the balance at each unknown, m3/s, at the reference of the pressures;
+  /// zero at seepage faces that are held. On several ranks it is complete at own faces.
+  void find_load(const MixedStage<Dim>& stage) {
     const MixedModel<Dim>& model = stage.model;
     const FacePressure& pressure = stage.pressure;
     const MomentumLaw<Dim>& law = stage.law;
@@ -114,39 +133,33 @@ class PressureSystem {
     for (const int f : stage.faces.switching()) {
       if (stage.faces.is_held(f)) load_[matrix_.unknown(f)] = 0.0;
     }
-    return load_;
   }
   [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }
+  /// Norm of the residual at all unknowns, and the largest, m3/s.
+  [[nodiscard]] double load_norm() const {
+    return std::sqrt(sum_of_all(ranks_, own_load().squaredNorm()));
+  }
+  [[nodiscard]] double largest_load() const {
+    const auto own = own_load();
+    double largest = 0.0;
+    if (own.size() > 0) largest = own.template lpNorm<Eigen::Infinity>();
+    return largest_of_all(ranks_, own.allFinite() ? largest : infinity);
+  }
 
   void archive(auto& archive) {
     // On several ranks the state of one process has factors of the whole matrix, which none uses.
     solver_.archive(archive, matrix_.values(), !shared_);
-    newton_.archive(archive, matrix_.values());
+    newton_.archive(archive, matrix_.values(), !shared_);
   }
 
  private:
-  /// Numbers the unknowns of all ranks: each numbers those of its own faces, one after the other.
-  void share_unknowns(const Grid<Dim>& grid) {
-    int first = 0;
-    int last = 0;
-    for (int f = 0; f < grid.face_count(); ++f) {
-      if (matrix_.unknown(f) < 0) continue;
-      if (f < *grid.own_faces().begin()) ++first;
-      if (f < *grid.own_faces().end()) ++last;
-    }
-    const long before = grid.ranks().before(last - first);
-    std::vector<long> of_face(grid.face_count(), -1);
-    for (const int f : grid.own_faces()) {
-      if (matrix_.unknown(f) >= 0) of_face[f] = before + matrix_.unknown(f) - first;
-    }
-    grid.face_rows().exchange(of_face);
-    std::vector<long> numbers;
-    for (int f = 0; f < grid.face_count(); ++f) {
-      if (matrix_.unknown(f) >= 0) numbers.push_back(of_face[f]);
-    }
-    shared_.emplace(grid.ranks(), numbers, first, last);
+  /// The residual at own unknowns: that at others is not complete.
+  [[nodiscard]] auto own_load() const {
+    const NumberRange own = shared_ ? shared_->own() : NumberRange(0, matrix_.unknowns());
+    return load_.segment(*own.begin(), *own.end() - *own.begin());
   }
 
+  const Ranks& ranks_;
   MixedMatrix<Dim> matrix_;
   std::optional<SharedSystem> shared_;  ///< on several ranks, in the place of `solver_`
   LaggedPreconditioner solver_;

@@ -3,7 +3,7 @@
 /// Newton's method on flux and pressure together for fast flow, whose drag grows with the square of
 /// the flux. Soil with bedding has no such drag.
 
-#include "mixed/flow_values.hpp"
+#include "grid/field_values.hpp"
 #include "mixed/pressure_system.hpp"
 
 namespace suffuse {
@@ -89,6 +89,8 @@ class QuadraticNewton {
     for (const Vector<Dim>& q : new_flux) {
       result.largest_flux = std::max(result.largest_flux, q.norm());
     }
+    const Ranks& ranks = model.grid.ranks();
+    result.largest_flux = largest_of_all(ranks, result.largest_flux);
     for (std::size_t i = 0; i < new_flux.size(); ++i) {
       const int e = static_cast<int>(i);
       const double rise = model.largest_at_faces(e, stage_.pressure.rise);
@@ -100,6 +102,8 @@ class QuadraticNewton {
       if (here > 1e-12 * result.largest_flux + 16.0 * round_off) result.is_round_off = false;
       result.largest = std::max(result.largest, here);
     }
+    result.is_round_off = !any_of_all(ranks, !result.is_round_off);
+    result.largest = largest_of_all(ranks, result.largest);
     return result;
   }
   /// Shortens the step to the new flux and push until it does not raise the error of momentum.
@@ -123,13 +127,13 @@ class QuadraticNewton {
   [[nodiscard]] double momentum_error(const Field& flux, const Field& push) const {
     const std::vector<DirectionalFactor<Dim>>& bedding = stage_.model.soils.bedding;
     double sum = 0.0;
-    for (std::size_t e = 0; e < flux.size(); ++e) {
+    for (const int e : stage_.model.grid.own_elements()) {
       const double resistance = stage_.resistance[e] + quadratic_drag_[e] * flux[e].norm();
       const double weight = stage_.model.grid.volume[e] * stage_.law.mobility[e];
       const Vector<Dim> held = bedding.empty() ? flux[e] : bedding[e].inverse_times(flux[e]);
       sum += weight * (resistance * held - push[e]).squaredNorm();
     }
-    return std::sqrt(sum);
+    return std::sqrt(sum_of_all(stage_.model.grid.ranks(), sum));
   }
 
   MixedStage<Dim>& stage_;

@@ -39,8 +39,7 @@ class RetentionNewton {
       }
       if (iteration == 0) first_norm = norm;
       const double scale = largest_flux();
-      const Eigen::VectorXd& load = system_.load();
-      const double left = load.size() > 0 ? load.template lpNorm<Eigen::Infinity>() : 0.0;
+      const double left = system_.largest_load();
       const double allowed =
           flux_accuracy * scale + round_off_ + round_off_units * stage_.wall_round_off();
       // Accept round-off where water is at rest or an element is nearly flat.
@@ -104,7 +103,8 @@ class RetentionNewton {
     if (stage_.retains) linearise_retention();
     if (hold_levels()) return evaluate();
     stage_.flux = stage_.found_flux();
-    return system_.find_load(stage_).norm();
+    system_.find_load(stage_);
+    return system_.load_norm();
   }
 
   /// Mobility, displaced air, and their slopes, at the reference pressures.
@@ -155,13 +155,9 @@ class RetentionNewton {
     for (const int f : faces_.switching()) {
       if (faces_.is_held(f)) matrix.uncouple(f);
     }
-    system_.newton().factorise(matrix.values());
-    if (flux.empty()) {
-      system_.newton().solve(matrix.values(), system_.load(), step_);
-    } else {
-      system_.newton().solve_tangent(matrix.with_gain(flux, gain_, faces_.held()), system_.load(),
-                                     step_);
-    }
+    std::optional<Eigen::SparseMatrix<double>> tangent;
+    if (!flux.empty()) tangent = matrix.with_gain(flux, gain_, faces_.held());
+    system_.solve_newton(tangent, step_);
   } catch (const NumericalError& error) {
     throw NotConverged(error.what());
   }
@@ -197,6 +193,8 @@ class RetentionNewton {
       const double suction = std::abs(pressure.reference[f]) + 1.0 / model_.soils.head_per_pressure;
       pressure.rise[f] = std::max(pressure.rise[f], -max_suction_growth * suction);
     });
+    // A limit comes from both sides of a face, which only its owner has.
+    model_.grid.face_rows().exchange(pressure.rise);
   }
 
   /// Opens and closes seepage faces. Returns whether any changed.
@@ -217,41 +215,59 @@ class RetentionNewton {
       faces_.set_open(f, presses);
       switched = true;
     }
-    return switched;
+    return any_of_all(model_.grid.ranks(), switched);
   }
 
   /// Whether storage fixes the level of the pressure in a sealed piece.
   [[nodiscard]] bool is_level_held(int piece) const {
-    for (int e = 0; e < model_.grid.mesh.element_count(); ++e) {
-      if (faces_.correction().sealed_piece()[e] != piece) continue;
+    const auto stores = [&](int e) {
+      if (faces_.correction().sealed_piece()[e] != piece) return false;
       if (stage_.stores(e)) return true;
-      if (side_storage_.empty()) continue;
-      if (std::ranges::any_of(side_storage_[e], [](double s) { return s > 0.0; })) return true;
-    }
-    return false;
+      return !side_storage_.empty() &&
+             std::ranges::any_of(side_storage_[e], [](double s) { return s > 0.0; });
+    };
+    bool held = false;
+    for (int e = 0; e < model_.grid.mesh.element_count() && !held; ++e) held = stores(e);
+    return any_of_all(model_.grid.ranks(), held);
   }
   /// Opens the seepage face with the highest pressure where nothing fixes the level. Returns
   /// whether any was opened.
   bool hold_levels() {
-    const std::vector<double>& pressure = stage_.pressure.reference;
     const FluxCorrection<Dim>& correction = faces_.correction();
     bool opened = false;
     for (int p = 0; p < correction.sealed_piece_count(); ++p) {
       if (is_level_held(p)) continue;
-      int highest = -1;
-      for (const int f : faces_.switching()) {
-        if (!faces_.is_seepage(f)) continue;
-        if (correction.sealed_piece()[model_.grid.face_left[f]] != p) continue;
-        if (highest < 0 || pressure[f] > pressure[highest]) highest = f;
-      }
-      if (highest < 0) {
+      if (open_highest(p)) {
+        opened = true;
+      } else if (correction.sealed_root()[p] >= 0) {
         level_elements_.push_back(correction.sealed_root()[p]);
-        continue;
       }
-      faces_.set_open(highest, true);
-      opened = true;
     }
     return opened;
+  }
+  /// Opens the seepage face of a sealed piece with the highest pressure, of several the one with
+  /// the lowest number. Returns false if there is none.
+  bool open_highest(int piece) {
+    const Grid<Dim>& grid = model_.grid;
+    const std::vector<double>& pressure = stage_.pressure.reference;
+    std::vector<int> candidates;
+    double highest = -infinity;
+    for (const int f : faces_.switching()) {
+      const bool is_in = faces_.correction().sealed_piece()[grid.face_left[f]] == piece;
+      if (!is_in || !faces_.is_seepage(f)) continue;
+      candidates.push_back(f);
+      highest = std::max(highest, pressure[f]);
+    }
+    highest = largest_of_all(grid.ranks(), highest);
+    double lowest = infinity;
+    for (const int f : candidates) {
+      if (pressure[f] == highest) lowest = std::min(lowest, double(grid.face_number(f)));
+    }
+    lowest = smallest_of_all(grid.ranks(), lowest);
+    for (const int f : candidates) {
+      if (double(grid.face_number(f)) == lowest) faces_.set_open(f, true);
+    }
+    return std::isfinite(lowest);
   }
   /// Round-off of the flux by gravity and of the contents of the elements, m3/s.
   [[nodiscard]] double balance_round_off() const {

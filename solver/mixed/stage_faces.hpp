@@ -23,6 +23,7 @@ class StageFaces {
       held_.push_back(c.kind == FaceKind::pressure ? 1 : 0);
     }
     corrected_ = held_;
+    any_switch_ = any_of_all(model.grid.ranks(), !switching_.empty());
     set_up_correction();
   }
 
@@ -34,6 +35,8 @@ class StageFaces {
   [[nodiscard]] const std::vector<FaceKind>& kinds() const { return kinds_; }
   /// Faces whose kind may change, ascending.
   [[nodiscard]] const std::vector<int>& switching() const { return switching_; }
+  /// Whether there are such faces, on any rank.
+  [[nodiscard]] bool any_switch() const { return any_switch_; }
 
   /// Starts a stage with these conditions, which must outlive it. Seepage faces stay as the last
   /// stage left them.
@@ -77,7 +80,7 @@ class StageFaces {
   [[nodiscard]] FluxCorrection<Dim>& correction() { return *correction_; }
   [[nodiscard]] const FluxCorrection<Dim>& correction() const { return *correction_; }
   void follow_held() {
-    if (corrected_ == held_) return;
+    if (!any_of_all(model_.grid.ranks(), corrected_ != held_)) return;
     corrected_ = held_;
     set_up_correction();
   }
@@ -85,7 +88,7 @@ class StageFaces {
   /// Without the flux correction, which archives itself.
   void archive(auto& archive) {
     archive(on_faces(open_), on_faces(corrected_));
-    if (archive.restores() && !switching_.empty()) set_up_correction();
+    if (archive.restores() && any_switch_) set_up_correction();
   }
 
  private:
@@ -106,6 +109,7 @@ class StageFaces {
   const MixedModel<Dim>& model_;
   std::vector<FaceKind> kinds_;
   std::vector<int> switching_;
+  bool any_switch_ = false;
   const std::vector<FaceCondition>* prescribed_ = nullptr;
   std::vector<FaceCondition> resolved_;  ///< empty if no kind may change
   std::vector<char> open_;               ///< per face: an open seepage face

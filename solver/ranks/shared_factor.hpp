@@ -17,8 +17,8 @@ struct OwnMatrixRows {
   [[nodiscard]] int count() const { return static_cast<int>(begin.size()) - 1; }
 };
 
-/// An approximate inverse of a symmetric positive definite matrix. All ranks have to make the same
-/// calls.
+/// An approximate inverse of a symmetric positive definite matrix, for systems with it and for
+/// those with a matrix near it. All ranks have to make the same calls.
 class SharedFactor {
  public:
   SharedFactor() = default;
@@ -31,6 +31,10 @@ class SharedFactor {
   /// smaller than the solution, in the norm of the energy. Returns the number of iterations. Throws
   /// NumericalError.
   virtual int solve(const std::vector<double>& rhs, std::vector<double>& x) = 0;
+  /// Sets `x` to the solution of tangent x = `rhs`, until the residual is 1e-9 of `rhs`. The
+  /// tangent need not be symmetric; it has the rows of the matrix that was factored last.
+  virtual int solve_near(const OwnMatrixRows& tangent, const std::vector<double>& rhs,
+                         std::vector<double>& x) = 0;
 };
 
 }  // namespace suffuse

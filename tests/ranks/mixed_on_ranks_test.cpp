@@ -43,6 +43,7 @@ struct Part {
       c.water_volume.push_back(from.water_volume[at]);
       c.mixture_density.push_back(from.mixture_density[at]);
       c.drag.push_back(from.drag[at]);
+      if (!from.quadratic_drag.empty()) c.quadratic_drag.push_back(from.quadratic_drag[at]);
       if (!whole.forcing.source.empty()) forcing.source.push_back(whole.forcing.source[at]);
     }
     c.face_concentration.assign(grid.face_count(), 0.0);
@@ -61,14 +62,22 @@ struct Part {
   FlowForcing<Dim> forcing;
 };
 
+/// \param soils  of the whole mesh
 template <int Dim>
 void expect_fluxes_of_one_process(const FlowModelOf<Dim>& whole, const std::string& name,
-                                  int most_iterations) {
+                                  int most_iterations, const FlowSoils<Dim>& soils = {}) {
   const Vector<Dim> gravity = -9.81 * Vector<Dim>::Unit(Dim - 1);
-  ImplicitMixed<Dim> alone(whole.grid, {}, gravity);
+  ImplicitMixed<Dim> alone(whole.grid, {}, gravity, soils);
   const MixedStep<Dim> expected = alone.steady(whole.forcing);
   const Part<Dim> part(whole);
-  ImplicitMixed<Dim> shared(part.grid, {}, gravity);
+  FlowSoils<Dim> soils_here = soils;
+  soils_here.retention.clear();
+  if (!soils.saturated()) {
+    for (const long e : part.local.numbers.element) {
+      soils_here.retention.push_back(soils.retention[static_cast<std::size_t>(e)]);
+    }
+  }
+  ImplicitMixed<Dim> shared(part.grid, {}, gravity, std::move(soils_here));
   const MixedStep<Dim> found = shared.steady(part.forcing);
 
   double largest = 0.0;
@@ -116,6 +125,9 @@ void set_contrast(FlowModelOf<Dim>& m, double contrast, bool scattered) {
 
 Mesh<2> square() {
   return in_order(model::column_mesh(40, 40, 1.0, 1.0, model::jittered(0.005, 2)));
+}
+Mesh<2> small_square() {
+  return in_order(model::column_mesh(16, 16, 1.0, 1.0, model::jittered(0.01, 2)));
 }
 Mesh<3> cube() {
   return in_order(model::box_mesh({8, 8, 8}));
@@ -188,6 +200,63 @@ TEST(MixedOnRanks, HoldsTheLevelOfASealedPiece) {
   m.set("right", FaceKind::flux, -1e-3);
   set_contrast(m, 1e3, true);
   expect_fluxes_of_one_process(m, "sealed", 60);
+}
+
+/// Loam and sand, in scattered elements.
+FlowSoils<2> scattered_soils(const Grid<2>& grid) {
+  FlowSoils<2> soils;
+  soils.head_per_pressure = 1.0 / 9810.0;
+  Uniform uniform(7);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    soils.retention.push_back(uniform() > 0.0 ? model::van_genuchten(3.0, 1.6, 0.1)
+                                              : model::van_genuchten(8.0, 2.5, 0.05));
+  }
+  return soils;
+}
+
+/// The right side lets water out, and takes up to `rain`, m/s.
+void open_right_side(FlowModelOf<2>& m, double rain) {
+  m.set("right", FaceKind::seepage, rain);
+  for (FaceCondition& c : m.forcing.conditions) c.switches = c.kind == FaceKind::seepage;
+}
+
+/// Newton's method takes the same steps, so that fluxes agree beyond its accuracy. Seepage faces
+/// are on some ranks only.
+TEST(MixedOnRanks, FindsTheSteadyFlowUnderSuction) {
+  FlowModelOf<2> m(small_square());
+  set_contrast(m, 1e3, true);
+  m.set("left", FaceKind::pressure, 2e3);
+  open_right_side(m, 0.0);
+  expect_fluxes_of_one_process(m, "seepage face", 300);
+  expect_fluxes_of_one_process(m, "suction and seepage face", 2000, scattered_soils(m.grid));
+}
+
+/// Where no pressure is prescribed, the seepage face with the highest pressure opens first; where
+/// none can open, the first face of the mesh has p = 0.
+TEST(MixedOnRanks, FindsTheSteadyFlowWithoutAPrescribedPressure) {
+  FlowModelOf<2> m(small_square());
+  set_contrast(m, 1e2, true);
+  m.set("left", FaceKind::flux, 1e-5);
+  open_right_side(m, 1e-6);
+  expect_fluxes_of_one_process(m, "sealed but for a seepage face", 600);
+  expect_fluxes_of_one_process(m, "the same under suction", 2000, scattered_soils(m.grid));
+  FlowModelOf<2> closed(small_square());
+  set_contrast(closed, 1e2, true);
+  closed.set("left", FaceKind::flux, 1e-3);
+  closed.set("right", FaceKind::flux, -1e-3);
+  for (FaceCondition& c : closed.forcing.conditions) c.switches = c.kind == FaceKind::flux;
+  expect_fluxes_of_one_process(closed, "closed", 600);
+}
+
+/// Drag that grows with the square of the flux: Newton's method on flux and pressure.
+TEST(MixedOnRanks, FindsFastFlow) {
+  FlowModelOf<2> m(small_square());
+  set_contrast(m, 1e3, true);
+  m.set("left", FaceKind::pressure, 5e4);
+  m.set("right", FaceKind::pressure, 0.0);
+  std::vector<double>& quadratic = m.forcing.coefficients.quadratic_drag;
+  for (const double drag : m.forcing.coefficients.drag) quadratic.push_back(1e3 * drag);
+  expect_fluxes_of_one_process(m, "fast", 400);
 }
 
 }  // namespace mixed_on_ranks_test

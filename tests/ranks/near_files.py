@@ -50,7 +50,8 @@ def difference(one, other):
             if column in OF_ROUND_OFF or pairs[0][0] is None:
                 continue
             largest = max(abs(x) for x, _ in pairs)
-            if largest > 0.0:
+            # What is less than this is the spread of transport over elements that nothing has reached.
+            if largest > 1e-30:
                 worst = max(worst, (max(abs(x - y) for x, y in pairs) / largest, f"{name} {column}"))
     return worst
 

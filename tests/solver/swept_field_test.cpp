@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "field/field_transport.hpp"
-#include "mixed/flow_values.hpp"
+#include "grid/field_values.hpp"
 #include "solid/pores.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"

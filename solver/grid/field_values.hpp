@@ -1,9 +1,10 @@
 #pragma once
 
-/// Small operations on times and per-element or per-face values that the parts of the flow share.
+/// Small operations on times, and on values per element or per face.
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace suffuse {
@@ -33,7 +34,7 @@ inline double largest_magnitude(const std::vector<double>& values) {
   return result;
 }
 
-inline double sum_of_magnitudes(const std::vector<double>& values) {
+inline double sum_of_magnitudes(std::span<const double> values) {
   double result = 0.0;
   for (const double v : values) result += std::abs(v);
   return result;
