@@ -347,7 +347,7 @@ template <int Dim>
 int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const std::string& folder,
              const RunOptions& run, const std::string& case_path) {
   const Ranks& ranks = *options.ranks;
-  if (ranks.count() > 1) refuse_on_ranks(c, plan.transport);
+  if (ranks.count() > 1) refuse_on_ranks(c);
   catch_interrupts();
   std::optional<StartingPoint> starting_point;
   together(ranks, [&] {

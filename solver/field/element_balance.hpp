@@ -43,13 +43,26 @@ struct StepErrors {
   double held = 0.0;       ///< fines in the liquid at the end
   double exchanged = 0.0;  ///< absolute exchange with the solid
   double entered = 0.0;    ///< fines from outside the model
+};
 
-  void add(const StepErrors& other) {
-    fines += other.fines;
-    exchange += other.exchange;
-    held += other.held;
-    exchanged += other.exchanged;
-    entered += other.entered;
+/// Their sums over elements, exact: the same in any order and on any number of ranks.
+struct StepErrorSums {
+  ExactSum fines;
+  ExactSum exchange;
+  ExactSum held;
+  ExactSum exchanged;
+  ExactSum entered;
+
+  void add(const auto& other) {
+    fines.add(other.fines);
+    exchange.add(other.exchange);
+    held.add(other.held);
+    exchanged.add(other.exchanged);
+    entered.add(other.entered);
+  }
+  [[nodiscard]] StepErrors of_all(const Ranks& ranks) {
+    ranks.sum({&fines, &exchange, &held, &exchanged, &entered});
+    return {fines.value(), exchange.value(), held.value(), exchanged.value(), entered.value()};
   }
 };
 

@@ -6,7 +6,10 @@
 
 #include "field/linear_fines.hpp"
 #include "grid/parallel.hpp"
+#include "grid/shared_sweep_order.hpp"
 #include "linear/anderson_mixing.hpp"
+#include "physics/numbers.hpp"
+#include "solid/rank_state.hpp"
 
 namespace suffuse {
 namespace {
@@ -35,6 +38,26 @@ ElementValues<Dim> fines_of(const ElementValues<Dim>& liquid, const double* at_v
   return result;
 }
 
+/// The scalar product of vectors of which each rank has a part, with `block` values per element:
+/// the same bits for any order of the elements, and on any number of ranks.
+template <int block>
+double exact_dot(const Ranks& ranks, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  ExactSum sum;
+  for (Eigen::Index i = 0; i < a.size(); i += block) {
+    double of_element = 0.0;
+    for (Eigen::Index k = i; k < i + block; ++k) of_element += a[k] * b[k];
+    sum.add(of_element);
+  }
+  ranks.sum({&sum});
+  return sum.value();
+}
+
+/// NaN counts as infinite.
+double largest_entry(const Eigen::VectorXd& values) {
+  if (values.size() == 0) return 0.0;
+  return values.allFinite() ? values.lpNorm<Eigen::Infinity>() : infinity;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -47,7 +70,8 @@ SweptField<Dim>::SweptField(const Grid<Dim>& grid, const ElementSides<Dim>& side
       boundary_values_(boundary_values),
       conditions_(boundary_values.at(0.0)),
       threads_(threads),
-      balance_(soils) {}
+      balance_(soils),
+      points_(point_rows(grid, soils)) {}
 
 template <int Dim>
 void SweptField<Dim>::start(const std::vector<double>& face_volume, std::vector<double> gained) {
@@ -64,7 +88,9 @@ void SweptField<Dim>::start(const std::vector<double>& face_volume, std::vector<
     upwind_[e] = sides_.upwind_places(e, outflow_[e]);
   });
   inflow_.clear();
-  for (const int f : sides_.outer_faces()) inflow_.push_back(std::max(0.0, -face_volume[f]));
+  for (const int f : sides_.outer_faces()) {
+    inflow_.push_back(grid_.owns_face(f) ? std::max(0.0, -face_volume[f]) : 0.0);
+  }
   const auto turned = [&](int e) {
     for (int k = 0; k <= Dim; ++k) {
       if ((before[e][k] < 0.0) != (outflow_[e][k] < 0.0)) return 1.0;
@@ -72,7 +98,19 @@ void SweptField<Dim>::start(const std::vector<double>& face_volume, std::vector<
     return 0.0;
   };
   const bool same = !before.empty() && largest_of(elements, threads_, 0.0, turned) == 0.0;
-  if (!same) order_ = sweep_order(sides_, outflow_);
+  if (any_of_all(grid_.ranks(), !same)) find_order();
+}
+
+template <int Dim>
+void SweptField<Dim>::find_order() {
+  ElementsAcross<Dim> upwind(outflow_.size());
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    for (int k = 0; k <= Dim; ++k) {
+      const int other = sides_.of(e).neighbour[k];
+      upwind[e][k] = other >= 0 && outflow_[e][k] < 0.0 ? other : -1;
+    }
+  }
+  order_ = grid_.ranks().count() > 1 ? shared_sweep_order(grid_, upwind) : sweep_order<Dim>(upwind);
 }
 
 template <int Dim>
@@ -100,38 +138,44 @@ template <int Dim>
 bool SweptField<Dim>::solve(const FinesState<Dim>& state, const SolidInStep<Dim>& solid,
                             double share, StepErrors& errors) {
   share_ = share;
-  errors = {};
+  StepErrorSums sums;
   exchange_.assign(soils_.points().size(), Exchange{});
   set_entering(solid.first_time(), first_);
   set_entering(solid.end(), last_);
-  errors.entered =
-      share * std::inner_product(inflow_.begin(), inflow_.end(), last_.end() - inflow_.size(), 0.0);
-  auto circle = order_.circles.begin();
-  for (int i = 0; i < static_cast<int>(order_.elements.size()); ++i) {
-    if (circle != order_.circles.end() && circle->begin == i) {
-      if (!solve_circle(state, solid, share, *circle, errors)) return false;
-      i = circle->end - 1;
-      ++circle;
-      continue;
+  sums.entered.add(share * std::inner_product(inflow_.begin(), inflow_.end(),
+                                              last_.end() - inflow_.size(), 0.0));
+  bool solved = true;
+  for (const SweepOrder::Part& part : order_.parts) {
+    if (part.is_circle) {
+      solved = solve_circle(state, solid, share, part, sums) && solved;
+    } else {
+      for (int i = part.begin; i < part.end; ++i) {
+        double slope = 1.0;
+        sums.add(solve_element(state, solid, share, order_.elements[i], slope));
+      }
     }
-    double slope = 1.0;
-    errors.add(solve_element(state, solid, share, order_.elements[i], slope));
+    if (part.sends) send_values();
   }
-  return true;
+  points_.exchange(exchange_);
+  errors = sums.of_all(grid_.ranks());
+  return !any_of_all(grid_.ranks(), !solved);
 }
 
 template <int Dim>
 bool SweptField<Dim>::solve_circle(const FinesState<Dim>& state, const SolidInStep<Dim>& solid,
-                                   double share, const SweepOrder::Circle& circle,
-                                   StepErrors& errors) {
-  // Repeats sweeps along the flow, each from the values of the one before. After a few sweeps
+                                   double share, const SweepOrder::Part& circle,
+                                   StepErrorSums& errors) {
+  // Repeats passes along the flow, each from the values of the one before. After a few passes
   // limits may only become stricter, so that the iteration converges.
   constexpr int enough = 200;
-  constexpr int free_rounds = 4;
+  constexpr int free_passes = 4;
   constexpr int remembered = 12;
   constexpr double round_off = 1e-14;
   constexpr int vertices = Dim + 1;
   const int count = circle.end - circle.begin;
+  const bool is_shared = !circle.rounds.empty();
+  const Ranks& ranks = is_shared ? grid_.ranks() : alone_;
+  const std::vector<int> rounds = is_shared ? circle.rounds : std::vector<int>{circle.end};
   const auto for_values = [&](const auto& take) {
     Eigen::Index at = 0;
     for (int i = circle.begin; i < circle.end; ++i) {
@@ -149,26 +193,34 @@ bool SweptField<Dim>::solve_circle(const FinesState<Dim>& state, const SolidInSt
     find_concentration<Dim>(state.fines_volume[e], state.liquid_volume[e], &first_[vertices * e]);
     std::copy_n(&first_[vertices * e], vertices, &last_[vertices * e]);
   }
+  if (is_shared) send_values();
   std::vector<double> slopes(count, 1.0);
-  AndersonMixing mixing(remembered);
-  for (int round = 0; round < enough; ++round) {
-    StepErrors of_round;
+  AndersonMixing mixing(remembered, [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return exact_dot<2 * vertices>(ranks, a, b);
+  });
+  for (int pass = 0; pass < enough; ++pass) {
+    StepErrorSums of_pass;
     for_values([&](Eigen::Index at, const double& value) { before[at] = value; });
-    for (int i = 0; i < count; ++i) {
-      if (round < free_rounds) slopes[i] = 1.0;
-      of_round.add(
-          solve_element(state, solid, share, order_.elements[circle.begin + i], slopes[i]));
+    int i = circle.begin;
+    for (const int end : rounds) {
+      for (; i < end; ++i) {
+        double& slope = slopes[i - circle.begin];
+        if (pass < free_passes) slope = 1.0;
+        of_pass.add(solve_element(state, solid, share, order_.elements[i], slope));
+      }
+      if (is_shared) send_values();
     }
     for_values([&](Eigen::Index at, const double& value) { after[at] = value; });
-    const double change = (after - before).lpNorm<Eigen::Infinity>();
-    if (change <= round_off * after.lpNorm<Eigen::Infinity>()) {
-      errors.add(of_round);
+    const double change = largest_of_all(ranks, largest_entry(after - before));
+    if (change <= round_off * largest_of_all(ranks, largest_entry(after))) {
+      errors.add(of_pass);
       return true;
     }
     if (!std::isfinite(change)) return false;
-    if (round < free_rounds) continue;
+    if (pass < free_passes) continue;
     const Eigen::VectorXd next = mixing.next(before, after);
     for_values([&](Eigen::Index at, double& value) { value = next[at]; });
+    if (is_shared) send_values();
   }
   return false;
 }
@@ -198,6 +250,8 @@ void SweptField<Dim>::finish(FinesState<Dim>& state, const ElementField<Dim>& re
     sum += element_sum<Dim>(received[e]) + element_sum<Dim>(moved);
     fines = fines_of<Dim>(liquid, &last_[place], sum, passing);
   });
+  // Concentrations beyond the fringe are not known here.
+  grid_.element_rows().exchange(state.fines_volume);
   const auto mean = [&](int e) {
     return element_sum<Dim>(state.fines_volume[e]) / element_sum<Dim>(state.liquid_volume[e]);
   };

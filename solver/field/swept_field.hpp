@@ -8,7 +8,7 @@
 
 #include "field/element_balance.hpp"
 #include "field/eulerian.hpp"
-#include "field/sweep_order.hpp"
+#include "grid/sweep_order.hpp"
 
 namespace suffuse {
 
@@ -36,13 +36,19 @@ class SweptField {
   [[nodiscard]] const SweepOrder& order() const { return order_; }
 
  private:
+  void find_order();
   /// Sets the concentrations that enter at a time, s, in `at_vertices`.
   void set_entering(double time, std::vector<double>& at_vertices);
   StepErrors solve_element(const FinesState<Dim>& state, const SolidInStep<Dim>& solid,
                            double share, int element, double& slope);
   [[nodiscard]] bool solve_circle(const FinesState<Dim>& state, const SolidInStep<Dim>& solid,
-                                  double share, const SweepOrder::Circle& circle,
-                                  StepErrors& errors);
+                                  double share, const SweepOrder::Part& circle,
+                                  StepErrorSums& errors);
+  /// Makes the values of other ranks' elements known here.
+  void send_values() {
+    grid_.element_rows().template exchange_blocks<Dim + 1>(first_);
+    grid_.element_rows().template exchange_blocks<Dim + 1>(last_);
+  }
 
   const Grid<Dim>& grid_;
   const ElementSides<Dim>& sides_;
@@ -51,11 +57,13 @@ class SweptField {
   std::vector<FaceCondition> conditions_;  ///< only their concentrations are updated
   int threads_;
   ElementBalance<Dim> balance_;
+  Ranks alone_;     ///< for circles of one rank
+  OwnRows points_;  ///< the solid points
 
   ElementField<Dim> outflow_;  ///< of the interval, m3
   std::vector<UpwindPlaces<Dim>> upwind_;
   std::vector<double> gained_;
-  std::vector<double> inflow_;  ///< liquid through each outer face in the interval, m3
+  std::vector<double> inflow_;  ///< liquid through each own outer face in the interval, m3
   SweepOrder order_;
   double share_ = 0.0;  ///< of the last solved step in the interval
   /// Concentrations at the first stage and at the end, in the order of ElementSides.

@@ -4,7 +4,6 @@
 /// error, and accepted or shortened.
 
 #include <limits>
-#include <numeric>
 
 #include "field/swept_field.hpp"
 #include "field/transport.hpp"
@@ -25,8 +24,7 @@ class SweptSteps {
              const BoundaryValues<Dim>& boundary_values, const SweptSettings& settings, int threads)
       : field_(grid, sides, soils, boundary_values, threads),
         settings_(settings),
-        round_off_(4.0 * std::numeric_limits<double>::epsilon() *
-                   std::accumulate(grid.volume.begin(), grid.volume.end(), 0.0)) {}
+        round_off_(4.0 * std::numeric_limits<double>::epsilon() * volume_of(grid)) {}
 
   /// Starts an interval of the flow.
   void start(double start, const FlowProgress& flow);
@@ -43,6 +41,11 @@ class SweptSteps {
   void archive(auto& archive) { archive(next_, most_held_, exchanged_, timing_); }
 
  private:
+  [[nodiscard]] static double volume_of(const Grid<Dim>& grid) {
+    double own = 0.0;
+    for (const int e : grid.own_elements()) own += grid.volume[e];
+    return sum_of_all(grid.ranks(), own);
+  }
   /// Error of a step of `dt` over the tolerance. The error of fines in elements is relative to the
   /// most fines that the liquid has held, that of the exchange to the total exchange. Their
   /// smallest reference is the gain of fines at the present rate in a millionth of the run.

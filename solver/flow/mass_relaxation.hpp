@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "results/state_archive.hpp"
+
 namespace suffuse {
 
 class MassRelaxation {

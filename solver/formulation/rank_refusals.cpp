@@ -10,7 +10,7 @@
 namespace suffuse {
 
 template <int Dim>
-void refuse_on_ranks(const Case<Dim>& c, bool transports) {
+void refuse_on_ranks(const Case<Dim>& c) {
   const Scene& scene = c.document.scene;
   std::vector<InputProblem> problems;
   const auto refuse = [&](bool found, const std::string& key, const std::string& what,
@@ -24,9 +24,6 @@ void refuse_on_ranks(const Case<Dim>& c, bool transports) {
   const bool is_explicit = scene.time.scheme == FlowScheme::explicit_nodal;
   refuse(is_explicit && scene.initial_flow == InitialFlow::steady, "initial.flow",
          "\"steady\" with the explicit scheme", "\"rest\"");
-  const bool sweeps =
-      !is_explicit && transports && scene.time.transport != TransportScheme::explicit_steps;
-  refuse(sweeps, "time.transport", "transport that may be implicit", "\"explicit\"");
   refuse(scene.mesh.error.has_value(), "mesh.error", "bounds of discharges", "no such key");
   refuse(!scene.initial_from.empty(), "initial.from", "a run", "no run");
   refuse(!scene.output.sections.empty(), "output.section", "sections", "no sections");
@@ -37,7 +34,7 @@ void refuse_on_ranks(const Case<Dim>& c, bool transports) {
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-template void refuse_on_ranks(const Case<2>&, bool);
-template void refuse_on_ranks(const Case<3>&, bool);
+template void refuse_on_ranks(const Case<2>&);
+template void refuse_on_ranks(const Case<3>&);
 
 }  // namespace suffuse

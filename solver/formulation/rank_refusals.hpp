@@ -6,9 +6,8 @@
 
 namespace suffuse {
 
-/// Throws InputError that names what of the scene cannot run on several ranks. `transports`: fines
-/// can be in the liquid.
+/// Throws InputError that names what of the scene cannot run on several ranks.
 template <int Dim>
-void refuse_on_ranks(const Case<Dim>& c, bool transports);
+void refuse_on_ranks(const Case<Dim>& c);
 
 }  // namespace suffuse

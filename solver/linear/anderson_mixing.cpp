@@ -1,10 +1,12 @@
 #include "linear/anderson_mixing.hpp"
 
+#include <cmath>
+
 namespace suffuse {
 
 Eigen::VectorXd AndersonMixing::next(const Eigen::VectorXd& x, const Eigen::VectorXd& g) {
   const Eigen::VectorXd residual = g - x;
-  if (last_g_.size() > 0) {
+  if (std::exchange(has_last_, true)) {
     changes_of_g_.emplace_back(g - last_g_);
     changes_of_residual_.emplace_back(residual - last_residual_);
     if (static_cast<int>(changes_of_g_.size()) > depth_) {
@@ -26,17 +28,17 @@ Eigen::VectorXd AndersonMixing::next(const Eigen::VectorXd& x, const Eigen::Vect
   for (Eigen::Index i = count - 1; i >= 0; --i) {
     Eigen::VectorXd direction = changes_of_residual_[i];
     Eigen::VectorXd change = changes_of_g_[i];
-    const double whole = direction.norm();
+    const double whole = std::sqrt(dot_(direction, direction));
     for (std::size_t k = 0; k < basis.size(); ++k) {
-      const double share = basis[k].dot(direction);
+      const double share = dot_(basis[k], direction);
       direction -= share * basis[k];
       change -= share * basis_of_g[k];
     }
-    const double size = direction.norm();
+    const double size = std::sqrt(dot_(direction, direction));
     if (!(size > dependent * whole)) continue;
     basis.emplace_back(direction / size);
     basis_of_g.emplace_back(change / size);
-    const double weight = basis.back().dot(left);
+    const double weight = dot_(basis.back(), left);
     left -= weight * basis.back();
     result -= weight * basis_of_g.back();
   }

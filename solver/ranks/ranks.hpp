@@ -101,6 +101,18 @@ std::vector<Value> gather_values(const Ranks& ranks, const std::vector<Value>& o
   return all;
 }
 
+/// The values of all ranks, in their order, on all of them.
+template <class Value>
+std::vector<Value> values_on_all(const Ranks& ranks, const std::vector<Value>& own) {
+  const std::vector<Value> all = gather_values(ranks, own);
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(all.data());
+  const std::vector<std::uint8_t> bytes =
+      ranks.of_first({begin, begin + all.size() * sizeof(Value)});
+  std::vector<Value> result(bytes.size() / sizeof(Value));
+  if (!bytes.empty()) std::memcpy(result.data(), bytes.data(), bytes.size());
+  return result;
+}
+
 /// Throws on all ranks the error of the lowest rank that has one; `own` is null on those that have
 /// none.
 void throw_together(const Ranks& ranks, const std::exception_ptr& own);

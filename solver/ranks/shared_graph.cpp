@@ -7,18 +7,6 @@
 namespace suffuse {
 namespace {
 
-/// Values of all ranks, in their order, on all of them.
-template <class Value>
-std::vector<Value> values_on_all(const Ranks& ranks, const std::vector<Value>& own) {
-  const std::vector<Value> all = gather_values(ranks, own);
-  const auto* begin = reinterpret_cast<const std::uint8_t*>(all.data());
-  const std::vector<std::uint8_t> bytes =
-      ranks.of_first({begin, begin + all.size() * sizeof(Value)});
-  std::vector<Value> result(bytes.size() / sizeof(Value));
-  if (!bytes.empty()) std::memcpy(result.data(), bytes.data(), bytes.size());
-  return result;
-}
-
 std::vector<long> ends_of(const std::vector<SharedEdge>& edges) {
   std::vector<long> nodes;
   for (const SharedEdge& edge : edges) nodes.insert(nodes.end(), {edge.a, edge.b});

@@ -16,7 +16,8 @@ SharedState::Rows rows_of(const Ranks& ranks, const std::vector<long>& numbers,
           static_cast<std::size_t>(*own.begin()), static_cast<std::size_t>(*own.end())};
 }
 
-/// Number of each solid point in the whole model: points are in the order of their elements.
+}  // namespace
+
 template <int Dim>
 std::vector<long> point_numbers(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
   const NumberRange own = soils.points_of(grid.own_elements());
@@ -35,7 +36,11 @@ std::vector<long> point_numbers(const Grid<Dim>& grid, const SoilMap<Dim>& soils
   return numbers;
 }
 
-}  // namespace
+template <int Dim>
+OwnRows point_rows(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
+  const NumberRange own = soils.points_of(grid.own_elements());
+  return grid.ranks().rows(point_numbers(grid, soils), *own.begin(), *own.end());
+}
 
 template <int Dim>
 RankState::RankState(const Grid<Dim>& grid, const SoilMap<Dim>& soils)
@@ -54,6 +59,10 @@ bool RankState::all_equal(std::uint64_t number) const {
   return extremes[0] == -extremes[1] && extremes[2] == -extremes[3];
 }
 
+template std::vector<long> point_numbers(const Grid<2>&, const SoilMap<2>&);
+template std::vector<long> point_numbers(const Grid<3>&, const SoilMap<3>&);
+template OwnRows point_rows(const Grid<2>&, const SoilMap<2>&);
+template OwnRows point_rows(const Grid<3>&, const SoilMap<3>&);
 template RankState::RankState(const Grid<2>&, const SoilMap<2>&);
 template RankState::RankState(const Grid<3>&, const SoilMap<3>&);
 

@@ -10,6 +10,15 @@
 
 namespace suffuse {
 
+/// Number of each solid point in the whole model: points are in the order of their elements. All
+/// ranks have to call it.
+template <int Dim>
+std::vector<long> point_numbers(const Grid<Dim>& grid, const SoilMap<Dim>& soils);
+
+/// The solid points that are here, of which a rank owns those of its elements. Likewise.
+template <int Dim>
+OwnRows point_rows(const Grid<Dim>& grid, const SoilMap<Dim>& soils);
+
 class RankState final : public SharedState {
  public:
   /// All ranks have to call it. Keeps a reference to the grid's ranks.
