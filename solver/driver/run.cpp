@@ -156,7 +156,10 @@ class Run final : public OutputSink<Dim> {
   /// Takes the part of this rank out of the case, if there are several.
   std::shared_ptr<const RankPart> take_part() {
     if (ranks_.count() == 1) return nullptr;
-    LocalMesh<Dim> local = local_mesh(case_.mesh, ranks_.rank(), ranks_.count());
+    // Liquid points pass at most two elements in a step.
+    const bool has_points = case_.document.scene.formulation == Formulation::double_point;
+    LocalMesh<Dim> local =
+        local_mesh(case_.mesh, ranks_.rank(), ranks_.count(), has_points ? 2 : 1);
     auto part = std::make_shared<RankPart>(RankPart{options_.ranks, local.numbers});
     local_case_ = local_case(case_, std::move(local));
     if (!is_first_) {

@@ -121,7 +121,8 @@ void MassAccounts<Dim>::book(const std::vector<double>& water, const std::vector
 
 template <int Dim>
 void MassAccounts<Dim>::book(const RegionCrossings& crossings) {
-  for (std::size_t r = 0; r < crossings.fines_out.size(); ++r) {
+  // Those are of all ranks.
+  for (std::size_t r = 0; r < crossings.fines_out.size() && grid_.ranks().rank() == 0; ++r) {
     const double out = crossings.fines_out[r];
     CrossedSums& account = crossed_[r + 1];
     (out > 0.0 ? account.fines_out : account.fines_in).add(std::abs(out));

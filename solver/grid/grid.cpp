@@ -157,6 +157,14 @@ std::vector<long> Grid<Dim>::global_faces(int first, int last) const {
 }
 
 template <int Dim>
+int Grid<Dim>::element_here(long number) const {
+  if (element_number_.empty()) return static_cast<int>(number);
+  const auto place = std::ranges::lower_bound(element_number_, number);
+  const bool is_here = place != element_number_.end() && *place == number;
+  return is_here ? static_cast<int>(place - element_number_.begin()) : -1;
+}
+
+template <int Dim>
 void Grid<Dim>::settle_fringe() {
   std::vector<char> ends(face_count());
   for (int f = 0; f < face_count(); ++f) ends[f] = is_outer(f) ? 1 : 0;

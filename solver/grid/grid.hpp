@@ -45,6 +45,8 @@ struct Grid {
   [[nodiscard]] long element_number(int element) const {
     return element_number_.empty() ? element : element_number_[static_cast<std::size_t>(element)];
   }
+  /// The element with this number in the whole mesh; -1 if it is not here.
+  [[nodiscard]] int element_here(long number) const;
   /// Number of a face in the whole mesh.
   [[nodiscard]] long face_number(int face) const {
     return face_number_.empty() ? face : face_number_[static_cast<std::size_t>(face)];

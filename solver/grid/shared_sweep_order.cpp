@@ -205,7 +205,7 @@ class SharedSearch {
     std::vector<int> place(upwind_.size(), none);
     std::vector<char> outside(upwind_.size(), 1);
     for (std::size_t i = 0; i < circle.size(); ++i) {
-      const int e = here(circle[i]);
+      const int e = grid_.element_here(circle[i]);
       if (e < 0) continue;
       place[e] = static_cast<int>(i);
       outside[e] = 0;
@@ -234,13 +234,6 @@ class SharedSearch {
     taking_.take({order_.elements.begin() + part.begin, order_.elements.end()});
     order_.parts.push_back(std::move(part));
     taking_.send();
-  }
-  /// An element by its number in the whole mesh; none if it is not here.
-  [[nodiscard]] int here(long number) const {
-    const std::vector<long>& numbers = grid_.element_numbers();
-    const auto place = std::ranges::lower_bound(numbers, number);
-    const bool is_here = place != numbers.end() && *place == number;
-    return is_here ? static_cast<int>(place - numbers.begin()) : none;
   }
   [[nodiscard]] bool owns(int element) const { return grid_.element_rows().owns(element); }
 

@@ -41,7 +41,7 @@ double share_from_corner(double at_corner, double at_side, double u) {
 }  // namespace
 
 template <int Directions>
-std::array<double, Directions> even_numbers(long number, int face) {
+std::array<double, Directions> even_numbers(long number, long face) {
   constexpr std::array<int, 2> base{2, 3};
   constexpr std::array<double, 2> turn{golden, 0.4142135623730950488};  // silver ratio - 2
   std::array<double, Directions> result;
@@ -68,7 +68,7 @@ std::array<double, 3> spread_on_face(const std::array<double, 3>& inflow,
   return {1.0 - r, r * (1.0 - s), r * s};
 }
 
-template std::array<double, 1> even_numbers<1>(long, int);
-template std::array<double, 2> even_numbers<2>(long, int);
+template std::array<double, 1> even_numbers<1>(long, long);
+template std::array<double, 2> even_numbers<2>(long, long);
 
 }  // namespace suffuse

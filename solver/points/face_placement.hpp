@@ -13,7 +13,7 @@ inline constexpr double golden = 0.6180339887498948482;
 /// `number` (0, 1, ...) of a face: van der Corput's sequence in base two, and in base three for a
 /// second direction (Halton, Numer. Math. 2 (1960) 84), shifted from face to face.
 template <int Directions>
-std::array<double, Directions> even_numbers(long number, int face);
+std::array<double, Directions> even_numbers(long number, long face);
 
 /// Barycentric coordinates of a place on an edge (Dim = 2) or a triangle (3). For `u` distributed
 /// evenly over [0, 1) the places are distributed like a linear flux. `inflow`: this flux at the

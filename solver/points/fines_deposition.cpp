@@ -7,9 +7,10 @@ namespace suffuse {
 
 template <int Dim>
 FinesDeposition<Dim>::FinesDeposition(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
-                                      double grain_density)
+                                      const SharedPoints<Dim>& shared, double grain_density)
     : grid_(grid),
       solid_(solid),
+      shared_(shared),
       grain_density_(grain_density),
       active_(solid.soils().deposits()) {}
 
@@ -17,7 +18,7 @@ template <int Dim>
 void FinesDeposition<Dim>::start(double duration) {
   duration_ = duration;
   deposited_.clear();
-  by_region_.assign(grid_.mesh.region_names.size(), 0.0);
+  by_region_.assign(grid_.mesh.region_names.size(), {});
   lost_by_region_ = by_region_;
   const SoilMap<Dim>& soils = solid_.soils();
   room_.assign(grid_.mesh.element_count(), 1.0);
@@ -71,15 +72,24 @@ template <int Dim>
 void FinesDeposition<Dim>::leave_along_paths(const std::vector<double>& fines_before,
                                              std::vector<FinesUptake<Dim>>& uptakes,
                                              LiquidPoints<Dim>& points) {
-  std::vector<double> demand(grid_.mesh.element_count(), 0.0);
-  for (const FinesUptake<Dim>& uptake : uptakes) {
-    demand[uptake.element] += uptake.exponent * points.fines_mass[uptake.point] / grain_density_;
-  }
-  const std::vector<double> shares = room_shares(demand);
-  std::vector<double> caught(demand.size(), 0.0);
+  const auto sum_in_elements = [&](const auto& volume_of) {
+    const auto sums = shared_.template sums<1>([&](const auto& add) {
+      for (FinesUptake<Dim>& uptake : uptakes) {
+        add(uptake.element, uptake.point, {volume_of(uptake)});
+      }
+    });
+    std::vector<double> result;
+    result.reserve(sums.size());
+    for (const auto& [volume] : sums) result.push_back(volume);
+    return result;
+  };
+  const std::vector<double> shares =
+      room_shares(sum_in_elements([&](const FinesUptake<Dim>& uptake) {
+        return uptake.exponent * points.fines_mass[uptake.point] / grain_density_;
+      }));
   int point = -1;
   double fines = 0.0;
-  for (FinesUptake<Dim>& uptake : uptakes) {
+  hand_out(sum_in_elements([&](FinesUptake<Dim>& uptake) {
     if (uptake.point != point) {
       point = uptake.point;
       fines = fines_before[point];
@@ -91,10 +101,9 @@ void FinesDeposition<Dim>::leave_along_paths(const std::vector<double>& fines_be
     uptake.mass -= mass;
     fines = after;
     points.fines_mass[point] -= mass;
-    caught[uptake.element] += mass / grain_density_;
-    lost_by_region_[uptake.region] += mass;
-  }
-  hand_out(caught);
+    lost_by_region_[uptake.region].add(mass);
+    return mass / grain_density_;
+  }));
 }
 
 template <int Dim>
@@ -120,7 +129,7 @@ void FinesDeposition<Dim>::leave_in_elements(const std::vector<Vector<Dim>>& pas
       const double mass = share * points.fines_mass(e, k);
       points.add_fines(e, k, -mass);
       caught[e] += mass / grain_density_;
-      lost_by_region_[grid_.mesh.element_region[e]] += mass;
+      lost_by_region_[grid_.mesh.element_region[e]].add(mass);
     }
   }
   hand_out(caught);
@@ -132,7 +141,9 @@ void FinesDeposition<Dim>::hand_out(const std::vector<double>& caught) {
   deposited_.assign(soils.points().size(), 0.0);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     if (caught[e] == 0.0) continue;
-    by_region_[grid_.mesh.element_region[e]] += grain_density_ * caught[e];
+    if (grid_.element_rows().owns(e)) {
+      by_region_[grid_.mesh.element_region[e]].add(grain_density_ * caught[e]);
+    }
     const DepositionModel& deposition = soils.exchange_of_element(e).deposition;
     const auto weight = [&](int p) {
       if (!deposition.has_room_at(solid_.porosity()[p])) return 0.0;

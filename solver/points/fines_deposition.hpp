@@ -10,6 +10,7 @@
 #include "points/fines_uptake.hpp"
 #include "points/liquid_points.hpp"
 #include "points/point_blocks.hpp"
+#include "points/shared_points.hpp"
 #include "solid/skeleton.hpp"
 
 namespace suffuse {
@@ -17,8 +18,10 @@ namespace suffuse {
 template <int Dim>
 class FinesDeposition {
  public:
-  /// Keeps references to the grid and the solid.
-  FinesDeposition(const Grid<Dim>& grid, const Skeleton<Dim>& solid, double grain_density);
+  /// Keeps references to grid, solid and shared points. All ranks have to call all functions but
+  /// `exponent`.
+  FinesDeposition(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                  const SharedPoints<Dim>& shared, double grain_density);
 
   /// Whether fines are deposited in some soil.
   [[nodiscard]] bool active() const { return active_; }
@@ -38,10 +41,10 @@ class FinesDeposition {
 
   /// Deposits of the step per solid point, m3; empty: none.
   [[nodiscard]] const std::vector<double>& deposited() const { return deposited_; }
-  /// Deposits of the step by the region of the soil, kg.
-  [[nodiscard]] const std::vector<double>& by_region() const { return by_region_; }
-  /// Deposits of the step by the region whose liquid lost them, kg.
-  [[nodiscard]] const std::vector<double>& lost_by_region() const { return lost_by_region_; }
+  /// Deposits of the step by the region of the soil, kg, of this rank.
+  [[nodiscard]] const std::vector<ExactSum>& by_region() const { return by_region_; }
+  /// Deposits of the step by the region whose liquid lost them, kg, of this rank.
+  [[nodiscard]] const std::vector<ExactSum>& lost_by_region() const { return lost_by_region_; }
 
  private:
   /// lambda_d times the room, 1/m; zero without deposition.
@@ -53,14 +56,15 @@ class FinesDeposition {
 
   const Grid<Dim>& grid_;
   const Skeleton<Dim>& solid_;
+  const SharedPoints<Dim>& shared_;
   double grain_density_;
   bool active_;
   double duration_ = 0.0;
   std::vector<double> room_;      ///< per element: mean of its solid points
   std::vector<double> capacity_;  ///< per element: volume that fits in, m3; may be infinite
   std::vector<double> deposited_;
-  std::vector<double> by_region_;
-  std::vector<double> lost_by_region_;
+  std::vector<ExactSum> by_region_;
+  std::vector<ExactSum> lost_by_region_;
 };
 
 }  // namespace suffuse

@@ -10,23 +10,6 @@ namespace {
 constexpr int rounds_at_places = 4;
 constexpr int rounds_along_paths = 8;
 
-/// Distributes node values to the elements in equal parts, and back to the nodes; keeps their sum.
-template <int Dim>
-std::vector<double> smoothed(const Grid<Dim>& grid, std::vector<double> at_nodes, int rounds) {
-  for (int round = 0; round < rounds; ++round) {
-    std::vector<double> next(at_nodes.size(), 0.0);
-    for (const auto& nodes : grid.mesh.elements) {
-      double sum = 0.0;
-      for (const int i : nodes) {
-        sum += at_nodes[i] / (grid.node_element_begin[i + 1] - grid.node_element_begin[i]);
-      }
-      for (const int i : nodes) next[i] += sum / (Dim + 1);
-    }
-    at_nodes = std::move(next);
-  }
-  return at_nodes;
-}
-
 /// phi_e / n_L times the step at nodes: the own uptake of points of eroding elements per volume of
 /// liquid. It is the volume-weighted mean over the eroding elements around a node.
 template <int Dim>
@@ -47,20 +30,61 @@ std::vector<double> gain_at_nodes(const Grid<Dim>& grid, const std::vector<doubl
   return gain;
 }
 
+/// Not inlined, so that products are rounded before they are added: on several ranks they are sent.
+template <std::size_t size>
+[[gnu::noinline]] std::array<double, size> times(std::array<double, size> weights, double volume) {
+  for (double& weight : weights) weight *= volume;
+  return weights;
+}
+
 }  // namespace
 
 template <int Dim>
 FinesTransfer<Dim>::FinesTransfer(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                  double grain_density)
-    : grid_(grid), soils_(soils), grain_density_(grain_density) {}
+                                  const SharedPoints<Dim>& shared, double grain_density)
+    : grid_(grid), soils_(soils), shared_(shared), grain_density_(grain_density) {
+  elements_at_node_.reserve(grid.mesh.nodes.size());
+  for (int i = 0; i < grid.mesh.node_count(); ++i) {
+    elements_at_node_.push_back(grid.node_element_begin[i + 1] - grid.node_element_begin[i]);
+  }
+  grid.node_rows().exchange(elements_at_node_);
+}
+
+template <int Dim>
+std::vector<double> FinesTransfer<Dim>::smoothed(std::vector<double> at_nodes, int rounds) const {
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<double> next(at_nodes.size(), 0.0);
+    for (const auto& nodes : grid_.mesh.elements) {
+      double sum = 0.0;
+      for (const int i : nodes) sum += at_nodes[i] / elements_at_node_[i];
+      for (const int i : nodes) next[i] += sum / (Dim + 1);
+    }
+    grid_.node_rows().exchange(next);
+    at_nodes = std::move(next);
+  }
+  return at_nodes;
+}
+
+template <int Dim>
+template <class Give>
+std::vector<double> FinesTransfer<Dim>::sums_at_nodes(const Give& give) const {
+  const Mesh<Dim>& mesh = grid_.mesh;
+  const auto at_corners = shared_.template sums<Dim + 1>(give);
+  std::vector<double> result(mesh.node_count(), 0.0);
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    for (int a = 0; a <= Dim; ++a) result[mesh.elements[e][a]] += at_corners[e][a];
+  }
+  grid_.node_rows().exchange(result);
+  return result;
+}
 
 template <int Dim>
 auto FinesTransfer<Dim>::collect(const std::vector<double>& exchange,
                                  const std::function<bool(int)>& stays_in_element,
                                  std::vector<double>& pending, Result& result) const -> Eroded {
   const Mesh<Dim>& mesh = grid_.mesh;
-  result.received.assign(mesh.region_names.size(), 0.0);
-  result.eroded.assign(mesh.region_names.size(), 0.0);
+  result.received.assign(mesh.region_names.size(), {});
+  result.eroded.assign(mesh.region_names.size(), {});
   Eroded eroded{std::vector<double>(mesh.element_count(), 0.0),
                 std::exchange(pending, std::vector<double>(pending.size(), 0.0))};
   const MaterialPoints<Dim>& solid = soils_.points();
@@ -69,48 +93,53 @@ auto FinesTransfer<Dim>::collect(const std::vector<double>& exchange,
     if (volume == 0.0) continue;
     const int e = solid.element[s];
     eroded.in_element[e] += volume;
-    result.eroded[mesh.element_region[e]] += grain_density_ * volume;
+    if (grid_.element_rows().owns(e)) {
+      result.eroded[mesh.element_region[e]].add(grain_density_ * volume);
+    }
     if (stays_in_element(e)) continue;
     for (int a = 0; a <= Dim; ++a) {
       eroded.at_node[mesh.elements[e][a]] += volume * solid.barycentric[s][a];
     }
   }
+  grid_.node_rows().exchange(eroded.at_node);
   return eroded;
 }
 
 template <int Dim>
-auto FinesTransfer<Dim>::compare(
-    const std::vector<double>& at_node, const std::vector<double>& uptake, int rounds,
-    const std::function<void(std::vector<double>& volume)>& liquid_around,
-    std::vector<double>& pending) const -> Handout {
+auto FinesTransfer<Dim>::compare(const std::vector<double>& at_node,
+                                 const std::vector<double>& uptake, int rounds,
+                                 const std::function<std::vector<double>()>& liquid_around,
+                                 std::vector<double>& pending) const -> Handout {
   const Mesh<Dim>& mesh = grid_.mesh;
   // Points do not fill the surroundings of each node evenly, so the comparison is smoothed.
-  const std::vector<double> offered_near = smoothed(grid_, at_node, rounds);
-  const std::vector<double> uptake_near = smoothed(grid_, uptake, rounds);
+  const std::vector<double> offered_near = smoothed(at_node, rounds);
+  const std::vector<double> uptake_near = smoothed(uptake, rounds);
   Handout handout{std::vector<double>(mesh.node_count(), 0.0), {}};
   std::vector<double> left_over(mesh.node_count(), 0.0);
-  double offered = 0.0;
-  double handed_out = 0.0;
+  ExactSum offered;
+  ExactSum handed_out;
   bool some_left = false;
   for (int i = 0; i < mesh.node_count(); ++i) {
     if (uptake_near[i] > 0.0) {
       handout.factor[i] = offered_near[i] / uptake_near[i];
-      offered += offered_near[i];
-      handed_out += handout.factor[i] * uptake[i];
+      if (!grid_.node_rows().owns(i)) continue;
+      offered.add(offered_near[i]);
+      handed_out.add(handout.factor[i] * uptake[i]);
     } else if (offered_near[i] > 0.0) {
       left_over[i] = offered_near[i];
       some_left = true;
     }
   }
   // The smoothed comparison leaves a small difference, which is distributed over all nodes.
-  if (handed_out > 0.0) {
-    for (double& f : handout.factor) f *= offered / handed_out;
+  grid_.ranks().sum({&offered, &handed_out});
+  if (handed_out.value() > 0.0) {
+    const double ratio = offered.value() / handed_out.value();
+    for (double& f : handout.factor) f *= ratio;
   }
-  if (!some_left) return handout;
+  if (!any_of_all(grid_.ranks(), some_left)) return handout;
   // No eroding element near has a point: fines go to any point around the node or stay pending.
   handout.per_volume.assign(mesh.node_count(), 0.0);
-  std::vector<double> liquid(mesh.node_count(), 0.0);
-  liquid_around(liquid);
+  const std::vector<double> liquid = liquid_around();
   for (int i = 0; i < mesh.node_count(); ++i) {
     if (liquid[i] > 0.0) {
       handout.per_volume[i] = left_over[i] / liquid[i];
@@ -145,13 +174,15 @@ auto FinesTransfer<Dim>::transfer(const std::vector<double>& exchange,
       for (int a = 0; a <= Dim; ++a) uptake_at_node[mesh.elements[e][a]] += share * at[a];
     }
   }
-  const auto liquid_around = [&](std::vector<double>& volume) {
+  const auto liquid_around = [&] {
+    std::vector<double> volume(mesh.node_count(), 0.0);
     for (int e = 0; e < mesh.element_count(); ++e) {
       for (int k = 0; k < liquid.count(e); ++k) {
         const auto at = liquid.barycentric(e, k);
         for (int a = 0; a <= Dim; ++a) volume[mesh.elements[e][a]] += volume_of(e, k) * at[a];
       }
     }
+    return volume;
   };
   const Handout handout =
       compare(at_node, uptake_at_node, rounds_at_places, liquid_around, pending);
@@ -175,7 +206,7 @@ auto FinesTransfer<Dim>::transfer(const std::vector<double>& exchange,
       liquid.add_fines(e, k, mass);
       received += mass;
     }
-    result.received[mesh.element_region[e]] += received;
+    result.received[mesh.element_region[e]].add(received);
   }
   return result;
 }
@@ -187,38 +218,39 @@ auto FinesTransfer<Dim>::transfer_along_paths(const std::vector<double>& exchang
                                               std::vector<FinesUptake<Dim>>& uptakes,
                                               std::vector<double>& pending) const -> Result {
   const Mesh<Dim>& mesh = grid_.mesh;
-  std::vector<double> uptake_in_element(mesh.element_count(), 0.0);
-  for (const FinesUptake<Dim>& uptake : uptakes)
-    uptake_in_element[uptake.element] += uptake.own_volume;
+  const auto uptake_in_element = shared_.template sums<1>([&](const auto& add) {
+    for (const FinesUptake<Dim>& uptake : uptakes) {
+      add(uptake.element, uptake.point, {uptake.own_volume});
+    }
+  });
   const auto stays_in_element = [&](int e) {
-    return shares_by_element(e) && uptake_in_element[e] > 0.0;
+    return shares_by_element(e) && uptake_in_element[e][0] > 0.0;
   };
   Result result;
   const Eroded eroded = collect(exchange, stays_in_element, pending, result);
-  std::vector<double> uptake_at_node(mesh.node_count(), 0.0);
-  for (const FinesUptake<Dim>& uptake : uptakes) {
-    if (stays_in_element(uptake.element)) continue;
-    for (int a = 0; a <= Dim; ++a) {
-      uptake_at_node[mesh.elements[uptake.element][a]] += uptake.own_volume * uptake.barycentric[a];
+  const std::vector<double> uptake_at_node = sums_at_nodes([&](const auto& add) {
+    for (const FinesUptake<Dim>& uptake : uptakes) {
+      if (stays_in_element(uptake.element)) continue;
+      add(uptake.element, uptake.point, times(uptake.barycentric, uptake.own_volume));
     }
-  }
-  const auto liquid_around = [&](std::vector<double>& volume) {
-    for (int p = 0; p < points.size(); ++p) {
-      for (int a = 0; a <= Dim; ++a) {
-        volume[mesh.elements[points.element[p]][a]] += point_volume[p] * points.barycentric[p][a];
+  });
+  const auto liquid_around = [&] {
+    return sums_at_nodes([&](const auto& add) {
+      for (int p = 0; p < points.size(); ++p) {
+        add(points.element[p], p, times(points.barycentric[p], point_volume[p]));
       }
-    }
+    });
   };
   const Handout handout =
       compare(eroded.at_node, uptake_at_node, rounds_along_paths, liquid_around, pending);
 
   for (FinesUptake<Dim>& uptake : uptakes) {
     const int e = uptake.element;
-    const double ratio = stays_in_element(e) ? eroded.in_element[e] / uptake_in_element[e]
+    const double ratio = stays_in_element(e) ? eroded.in_element[e] / uptake_in_element[e][0]
                                              : at_place(e, uptake.barycentric, handout.factor);
     uptake.mass = grain_density_ * uptake.own_volume * ratio;
     points.fines_mass[uptake.point] += uptake.mass;
-    result.received[uptake.region] += uptake.mass;
+    result.received[uptake.region].add(uptake.mass);
   }
   if (handout.per_volume.empty()) return result;
   for (int p = 0; p < points.size(); ++p) {
@@ -226,7 +258,7 @@ auto FinesTransfer<Dim>::transfer_along_paths(const std::vector<double>& exchang
     const double mass =
         grain_density_ * point_volume[p] * at_place(e, points.barycentric[p], handout.per_volume);
     points.fines_mass[p] += mass;
-    result.received[mesh.element_region[e]] += mass;
+    result.received[mesh.element_region[e]].add(mass);
   }
   return result;
 }

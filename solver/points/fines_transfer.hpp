@@ -7,6 +7,7 @@
 #include "points/fines_uptake.hpp"
 #include "points/liquid_points.hpp"
 #include "points/point_blocks.hpp"
+#include "points/shared_points.hpp"
 #include "solid/soil_map.hpp"
 
 namespace suffuse {
@@ -22,11 +23,14 @@ namespace suffuse {
 template <int Dim>
 class FinesTransfer {
  public:
-  FinesTransfer(const Grid<Dim>& grid, const SoilMap<Dim>& soils, double grain_density);
+  /// Keeps references. All ranks have to call all functions.
+  FinesTransfer(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const SharedPoints<Dim>& shared,
+                double grain_density);
 
+  /// Of this rank.
   struct Result {
-    std::vector<double> received;  ///< per region: fines its liquid took up, kg
-    std::vector<double> eroded;    ///< per region: fines its solid lost, kg
+    std::vector<ExactSum> received;  ///< per region: fines its liquid took up, kg
+    std::vector<ExactSum> eroded;    ///< per region: fines its solid lost, kg
   };
 
   /// `exchange`: fines from each solid point, m3, empty: none; `porosity`: of the elements before
@@ -55,17 +59,23 @@ class FinesTransfer {
                                const std::function<bool(int)>& stays_in_element,
                                std::vector<double>& pending, Result& result) const;
   /// Fines for points: `factor` of a node times their own uptake, plus `per_volume` times their
-  /// volume (empty if no fines are left for it).
+  /// volume (empty if no fines are left for it, on any rank).
   struct Handout {
     std::vector<double> factor;
     std::vector<double> per_volume;
   };
   /// Compares the fines at nodes with `uptake`, the own uptakes of points near each node, m3, after
-  /// `rounds` of smoothing. `liquid_around` adds the volume of liquid around each node, m3.
-  [[nodiscard]] Handout compare(
-      const std::vector<double>& at_node, const std::vector<double>& uptake, int rounds,
-      const std::function<void(std::vector<double>& volume)>& liquid_around,
-      std::vector<double>& pending) const;
+  /// `rounds` of smoothing. `liquid_around` finds the volume of liquid around each node, m3.
+  [[nodiscard]] Handout compare(const std::vector<double>& at_node,
+                                const std::vector<double>& uptake, int rounds,
+                                const std::function<std::vector<double>()>& liquid_around,
+                                std::vector<double>& pending) const;
+  /// Distributes node values to the elements in equal parts, and back to the nodes; keeps their
+  /// sum.
+  [[nodiscard]] std::vector<double> smoothed(std::vector<double> at_nodes, int rounds) const;
+  /// Sums at nodes of what points bring to the corners of elements; `give` as in `SharedPoints`.
+  template <class Give>
+  [[nodiscard]] std::vector<double> sums_at_nodes(const Give& give) const;
   [[nodiscard]] bool shares_by_element(int e) const {
     return soils_.soil_of_element(e).erosion.mass_transfer == MassTransfer::element;
   }
@@ -78,7 +88,9 @@ class FinesTransfer {
 
   const Grid<Dim>& grid_;
   const SoilMap<Dim>& soils_;
+  const SharedPoints<Dim>& shared_;
   double grain_density_;
+  std::vector<int> elements_at_node_;  ///< of the whole mesh
 };
 
 }  // namespace suffuse

@@ -16,7 +16,15 @@ void reorder(Values& values, const std::vector<int>& order) {
   values = std::move(ordered);
 }
 
-/// Replaces the points by those with the numbers `order`, in that order.
+std::vector<int> begins(const std::vector<int>& element, int element_count) {
+  std::vector<int> begin(element_count + 1, 0);
+  for (const int e : element) ++begin[e + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  return begin;
+}
+
+}  // namespace
+
 template <int Dim>
 void rearrange(LiquidPoints<Dim>& points, const std::vector<int>& order) {
   reorder(points.element, order);
@@ -27,15 +35,6 @@ void rearrange(LiquidPoints<Dim>& points, const std::vector<int>& order) {
   reorder(points.pressure, order);
   reorder(points.velocity, order);
 }
-
-std::vector<int> begins(const std::vector<int>& element, int element_count) {
-  std::vector<int> begin(element_count + 1, 0);
-  for (const int e : element) ++begin[e + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  return begin;
-}
-
-}  // namespace
 
 template <int Dim>
 void LiquidPoints<Dim>::reserve(int count) {
@@ -96,6 +95,8 @@ template LiquidPoints<3> clean_liquid(const MaterialPoints<3>&, const std::vecto
                                       const LiquidDensities&, double);
 template void LiquidPoints<2>::reserve(int);
 template void LiquidPoints<3>::reserve(int);
+template void rearrange(LiquidPoints<2>&, const std::vector<int>&);
+template void rearrange(LiquidPoints<3>&, const std::vector<int>&);
 template void sort_by_element(LiquidPoints<2>&, int);
 template void sort_by_element(LiquidPoints<3>&, int);
 template std::vector<int> element_begins(const LiquidPoints<2>&, int);

@@ -6,6 +6,7 @@
 
 #include "grid/point_place.hpp"
 #include "mesh/material_points.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -25,7 +26,8 @@ struct LiquidPoints {
   [[nodiscard]] int size() const { return static_cast<int>(element.size()); }
   [[nodiscard]] PointPlace<Dim> place(int p) const { return {element[p], barycentric[p]}; }
   void archive(auto& archive) {
-    archive(element, barycentric, water_mass, fines_mass, id, pressure, velocity);
+    archive(in_parts(element), in_parts(barycentric), in_parts(water_mass), in_parts(fines_mass),
+            in_parts(id), in_parts(pressure), in_parts(velocity));
   }
   /// Reserves memory for points that carry the flow.
   void reserve(int count);
@@ -38,6 +40,10 @@ void sort_by_element(LiquidPoints<Dim>& points, int element_count);
 /// Points of element e: begin[e] .. begin[e + 1]. For sorted points.
 template <int Dim>
 std::vector<int> element_begins(const LiquidPoints<Dim>& points, int element_count);
+
+/// Replaces the points by those with the numbers `order`, in that order.
+template <int Dim>
+void rearrange(LiquidPoints<Dim>& points, const std::vector<int>& order);
 
 /// Keeps the points for which `keep` is not zero.
 template <int Dim>

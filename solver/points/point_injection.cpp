@@ -67,7 +67,8 @@ PointInjection<Dim>::PointInjection(const Grid<Dim>& grid,
   for (const FaceCondition& condition : conditions) {
     const bool opens = condition.kind != FaceKind::interior && condition.kind != FaceKind::wall;
     is_open_.push_back(opens || condition.switches);
-    if (is_open_.back() != 0) open_faces_.push_back(static_cast<int>(is_open_.size()) - 1);
+    const int face = static_cast<int>(is_open_.size()) - 1;
+    if (is_open_.back() != 0 && grid.owns_face(face)) open_faces_.push_back(face);
   }
 }
 
@@ -78,7 +79,8 @@ InflowAccount PointInjection<Dim>::initial_account(long next_id) const {
   account.injected.assign(grid_.face_count(), 0);
   account.volume.assign(grid_.face_count(), 0.0);
   for (const int f : open_faces_) {
-    account.volume[f] = settings_.point_volume[f] * fraction(0.5 + golden * static_cast<double>(f));
+    account.volume[f] = settings_.point_volume[f] *
+                        fraction(0.5 + golden * static_cast<double>(grid_.face_number(f)));
   }
   return account;
 }
@@ -93,9 +95,10 @@ PointPlace<Dim> PointInjection<Dim>::place_on_face(int face, long number,
   for (int a = 0; a < Dim && !node_flux.empty(); ++a) {
     inflow[a] = std::max(0.0, -grid_.face_normal[face].dot(node_flux[nodes[a]]));
   }
-  std::array<double, Dim - 1> u = even_numbers<Dim - 1>(number, face);
+  const long in_whole = grid_.face_number(face);
+  std::array<double, Dim - 1> u = even_numbers<Dim - 1>(number, in_whole);
   for (int d = 0; d < Dim - 1 && settings_.random; ++d) {
-    u[d] = hashed(settings_.seed, face, number, d + 1);
+    u[d] = hashed(settings_.seed, in_whole, number, d + 1);
   }
   const std::array<double, Dim> on_face = spread_on_face(inflow, u);
   const int e = grid_.face_left[face];
@@ -116,7 +119,8 @@ double PointInjection<Dim>::volumes_at_injection(int face, long number) const {
   thread_local std::vector<double> at;
   at.resize(batch);
   for (long k = 0; k < batch; ++k) {
-    at[k] = static_cast<double>(batch) * hashed(settings_.seed, face, first + k, 0);
+    at[k] =
+        static_cast<double>(batch) * hashed(settings_.seed, grid_.face_number(face), first + k, 0);
   }
   std::nth_element(at.begin(), at.begin() + (number - first), at.end());
   return static_cast<double>(first) + at[number - first];
@@ -156,6 +160,30 @@ void PointInjection<Dim>::inject(InflowAccount& account, const std::vector<doubl
   std::ranges::sort(points, {}, [](const InjectedPoint<Dim>& point) {
     return std::tuple(point.share, point.face, point.number);
   });
+}
+
+template <int Dim>
+auto PointInjection<Dim>::places(const std::vector<InjectedPoint<Dim>>& points) const -> Places {
+  struct Key {
+    double share;
+    long face;
+    long number;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> own;
+  own.reserve(points.size());
+  for (const InjectedPoint<Dim>& point : points) {
+    own.push_back({point.share, grid_.face_number(point.face), point.number});
+  }
+  std::vector<Key> all = values_on_all(grid_.ranks(), own);
+  std::ranges::sort(all, [](const Key& a, const Key& b) { return a < b; });
+  Places result{{}, static_cast<long>(all.size())};
+  for (const Key& key : own) {
+    const auto place =
+        std::ranges::lower_bound(all, key, [](const Key& a, const Key& b) { return a < b; });
+    result.of_point.push_back(place - all.begin());
+  }
+  return result;
 }
 
 template <int Dim>

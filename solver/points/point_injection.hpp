@@ -8,6 +8,7 @@
 #include "boundary/face_conditions.hpp"
 #include "mixed/flow.hpp"
 #include "points/liquid_points.hpp"
+#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -19,7 +20,7 @@ struct InflowAccount {
   std::vector<long> injected;  ///< points so far, per face
   long next_id = 0;
 
-  void archive(auto& archive) { archive(volume, injected, next_id); }
+  void archive(auto& archive) { archive(on_faces(volume), on_faces(injected), next_id); }
 };
 
 /// A point that enters the model.
@@ -55,7 +56,7 @@ class PointInjection {
   /// The account at the start. Its volumes differ from face to face, so that faces inject in turn.
   [[nodiscard]] InflowAccount initial_account(long next_id) const;
 
-  /// Outer faces that are not impervious, ascending; points cross them.
+  /// Own outer faces that are not impervious, ascending; points cross them.
   [[nodiscard]] const std::vector<int>& open_faces() const { return open_faces_; }
   /// Whether each face is open.
   [[nodiscard]] const std::vector<unsigned char>& is_open() const { return is_open_; }
@@ -66,6 +67,14 @@ class PointInjection {
   /// face would take an unreasonable number of points.
   void inject(InflowAccount& account, const std::vector<double>& volume,
               const VectorField<Dim>& node_flux, std::vector<InjectedPoint<Dim>>& points) const;
+
+  /// The place of each of these points among those of all ranks in the order of completion, and
+  /// their number. All ranks have to call it.
+  struct Places {
+    std::vector<long> of_point;
+    long count;
+  };
+  [[nodiscard]] Places places(const std::vector<InjectedPoint<Dim>>& points) const;
 
   /// Masses of an injected point, from the concentration of its boundary and the density of water
   /// at the pressure of its element, Pa.

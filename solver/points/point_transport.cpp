@@ -17,9 +17,10 @@ PointTransport<Dim>::PointTransport(const Grid<Dim>& grid, const Skeleton<Dim>& 
       densities_(densities),
       bulk_modulus_(bulk_modulus),
       threads_(threads),
+      shared_(grid),
       injection_(grid, conditions, std::move(injection), densities, bulk_modulus),
-      transfer_(grid, solid.soils(), densities.grain),
-      deposition_(grid, solid, densities.grain),
+      transfer_(grid, solid.soils(), shared_, densities.grain),
+      deposition_(grid, solid, shared_, densities.grain),
       pending_(grid.mesh.node_count(), 0.0) {}
 
 template <int Dim>
@@ -36,6 +37,13 @@ const RegionCrossings& PointTransport<Dim>::move(double start, const FlowProgres
     if (deposition_.deposited().empty()) continue;
     exchange.deposit(deposition_.deposited());
     follow_deposits();
+  }
+  std::vector<ExactSum*> sums;
+  for (ExactSum& sum : given_) sums.push_back(&sum);
+  for (ExactSum& sum : received_) sums.push_back(&sum);
+  grid_.ranks().sum(sums);
+  for (std::size_t r = 0; r < given_.size(); ++r) {
+    crossings_.fines_out.push_back(given_[r].minus(received_[r]));
   }
   return crossings_;
 }
@@ -63,49 +71,57 @@ std::vector<double> PointTransport<Dim>::concentration_ahead(double most) const 
 
 template <int Dim>
 std::vector<char> PointTransport<Dim>::dry_elements() const {
-  std::vector<char> result;
+  std::vector<char> result(grid_.mesh.elements.size(), 0);
+  bool any = false;
   const SoilMap<Dim>& soils = solid_.soils();
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+  for (const int e : grid_.own_elements()) {
     if (soils.soil_of_element(e).erosion.empty_elements != EmptyElements::dry || has_points(e)) {
       continue;
     }
-    result.resize(grid_.mesh.elements.size(), 0);
     result[e] = 1;
+    any = true;
   }
+  if (!any_of_all(grid_.ranks(), any)) return {};
+  grid_.element_rows().exchange(result);
   return result;
 }
 
 template <int Dim>
 bool PointTransport<Dim>::has_pending() const {
-  return std::ranges::any_of(pending_, [](double volume) { return volume != 0.0; });
+  const bool here = std::ranges::any_of(pending_, [](double volume) { return volume != 0.0; });
+  return any_of_all(grid_.ranks(), here);
 }
 
 template <int Dim>
-int PointTransport<Dim>::empty_elements() const {
-  int empty = 0;
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+double PointTransport<Dim>::empty_elements() const {
+  double empty = 0.0;
+  for (const int e : grid_.own_elements()) {
     if (solid_.soils().is_soil(e) && !has_points(e)) ++empty;
   }
-  return empty;
+  return sum_of_all(grid_.ranks(), empty);
 }
 
 template <int Dim>
 void PointTransport<Dim>::start_crossings() {
   crossings_.points.clear();
-  crossings_.fines_out.assign(grid_.mesh.region_names.size(), 0.0);
+  crossings_.fines_out.clear();
+  given_.assign(grid_.mesh.region_names.size(), {});
+  received_ = given_;
 }
 
 template <int Dim>
 void PointTransport<Dim>::book(const typename FinesTransfer<Dim>::Result& transferred) {
-  for (std::size_t r = 0; r < transferred.eroded.size(); ++r) {
-    crossings_.fines_out[r] += transferred.eroded[r] - transferred.received[r];
+  for (std::size_t r = 0; r < given_.size(); ++r) {
+    given_[r].add(transferred.eroded[r]);
+    received_[r].add(transferred.received[r]);
   }
 }
 
 template <int Dim>
 void PointTransport<Dim>::book_deposition() {
-  for (std::size_t r = 0; r < crossings_.fines_out.size(); ++r) {
-    crossings_.fines_out[r] += deposition_.lost_by_region()[r] - deposition_.by_region()[r];
+  for (std::size_t r = 0; r < given_.size(); ++r) {
+    given_[r].add(deposition_.lost_by_region()[r]);
+    received_[r].add(deposition_.by_region()[r]);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "points/fines_transfer.hpp"
 #include "points/point_crossing.hpp"
 #include "points/point_injection.hpp"
+#include "points/shared_points.hpp"
 #include "solid/skeleton.hpp"
 
 namespace suffuse {
@@ -18,8 +19,8 @@ namespace suffuse {
 /// Masses that crossed borders of regions in an interval.
 struct RegionCrossings {
   std::vector<PointCrossing> points;
-  /// Per region: fines that its solid gave minus those that its liquid received, kg. At a border of
-  /// regions fines of one may join liquid of the other.
+  /// Per region: fines that its solid gave minus those that its liquid received, kg, on all ranks.
+  /// At a border of regions fines of one may join liquid of the other.
   std::vector<double> fines_out;
 };
 
@@ -81,7 +82,7 @@ class PointTransport : public Transport<Dim> {
   [[nodiscard]] const std::vector<double>& pending() const { return pending_; }
   [[nodiscard]] const InflowAccount& inflow() const { return inflow_; }
   /// Number of soil elements without a liquid point: now, and summed over all movements of points.
-  [[nodiscard]] int empty_elements() const;
+  [[nodiscard]] double empty_elements() const;
   [[nodiscard]] double empty_elements_total() const { return empty_total_; }
 
   /// Starts from the liquid of another run, whose last flow was `flow`.
@@ -94,8 +95,8 @@ class PointTransport : public Transport<Dim> {
   [[nodiscard]] EarlierLiquid<Dim> last_liquid() const { return {points(), inflow_, pending_}; }
 
   void archive(StateArchive& archive) override {
-    archive(inflow_, pending_, empty_total_, concentration_before_, fines_timing_,
-            movement_timing_);
+    archive(inflow_, on_nodes(pending_), empty_total_, on_elements(concentration_before_),
+            fines_timing_, movement_timing_);
   }
 
  protected:
@@ -123,6 +124,7 @@ class PointTransport : public Transport<Dim> {
   LiquidDensities densities_;
   double bulk_modulus_;
   int threads_;
+  SharedPoints<Dim> shared_;
   PointInjection<Dim> injection_;
   FinesTransfer<Dim> transfer_;
   FinesDeposition<Dim> deposition_;
@@ -130,6 +132,10 @@ class PointTransport : public Transport<Dim> {
   std::vector<double> pending_;
   double empty_total_ = 0.0;
   RegionCrossings crossings_;
+  // Fines of the interval per region, kg, of this rank: what solid and liquid gave, and what they
+  // received.
+  std::vector<ExactSum> given_;
+  std::vector<ExactSum> received_;
   /// Concentration of the elements one step before, if the exchange of fines depends on it;
   /// otherwise empty.
   std::vector<double> concentration_before_;

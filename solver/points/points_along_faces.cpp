@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/errors.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {
@@ -30,14 +31,24 @@ PointsAlongFaces<Dim>::PointsAlongFaces(const Grid<Dim>& grid, const Skeleton<Di
                           threads),
       points_(clean_liquid(places, pressure, densities, bulk_modulus)),
       begins_(element_begins(points_, grid.mesh.element_count())) {
-  this->inflow_ = this->injection_.initial_account(points_.size());
+  const Ranks& ranks = grid.ranks();
+  const long before = ranks.before(points_.size());
+  for (long& id : points_.id) id += before;
+  const auto all = static_cast<long>(sum_of_all(ranks, points_.size()));
+  this->inflow_ = this->injection_.initial_account(all);
 }
 
 template <int Dim>
 void PointsAlongFaces<Dim>::archive(StateArchive& archive) {
   PointTransport<Dim>::archive(archive);
-  archive(points_);
-  if (archive.restores()) begins_ = element_begins(points_, this->grid_.mesh.element_count());
+  LiquidPoints<Dim> whole;
+  if (!archive.restores()) whole = points_;
+  this->shared_.number_elements(whole);
+  archive(whole);
+  if (!archive.restores()) return;
+  this->shared_.take_own(whole);
+  points_ = std::move(whole);
+  begins_ = element_begins(points_, this->grid_.mesh.element_count());
 }
 
 template <int Dim>
@@ -49,6 +60,8 @@ LiquidContent PointsAlongFaces<Dim>::content() const {
     content.liquid[points_.element[p]] +=
         liquid_volume(points_.water_mass[p], points_.fines_mass[p], this->densities_, 1.0);
   }
+  this->grid_.element_rows().exchange(content.fines);
+  this->grid_.element_rows().exchange(content.liquid);
   return content;
 }
 
@@ -85,6 +98,7 @@ double PointsAlongFaces<Dim>::longest_step(const std::vector<double>& face_rate)
   for (int e = 0; e < this->grid_.mesh.element_count(); ++e) {
     most = std::max(most, crossings(this->grid_, {face_rate, porosity, porosity}, e));
   }
+  most = largest_of_all(this->grid_.ranks(), most);
   return most > 0.0 ? transport_safety * max_elements / most
                     : std::numeric_limits<double>::infinity();
 }
@@ -124,7 +138,7 @@ void PointsAlongFaces<Dim>::advance(const TransportStep& step, const FaceVolumes
                                     const std::vector<double>& pressure) {
   std::vector<double> volume = volumes.liquid;
   for (double& v : volume) v *= step.share;
-  const bool erodes = !eroded.empty();
+  const bool erodes = any_of_all(this->grid_.ranks(), !eroded.empty());
   std::vector<double> porosity_end = porosity_after(step.share, erodes);
   if (this->deposition_.active()) this->deposition_.start(step.end - step.start);
   if (erodes) mean_fines_ = mean_fines();
@@ -169,7 +183,10 @@ void PointsAlongFaces<Dim>::inject(const std::vector<double>& volume,
                                    const std::vector<double>& pressure, Paths& paths,
                                    std::vector<double>& start) {
   std::vector<InjectedPoint<Dim>> injected;
-  this->injection_.inject(this->inflow_, volume, {}, injected);
+  together(this->grid_.ranks(),
+           [&] { this->injection_.inject(this->inflow_, volume, {}, injected); });
+  const auto places = this->injection_.places(injected);
+  auto place = places.of_point.begin();
   for (const InjectedPoint<Dim>& point : injected) {
     const int e = point.place.element;
     const auto [water_mass, fines_mass] = this->injection_.content(point, pressure[e]);
@@ -177,11 +194,13 @@ void PointsAlongFaces<Dim>::inject(const std::vector<double>& volume,
     points_.barycentric.push_back(point.place.barycentric);
     points_.water_mass.push_back(water_mass);
     points_.fines_mass.push_back(fines_mass);
-    points_.id.push_back(this->inflow_.next_id++);
+    points_.id.push_back(this->inflow_.next_id + *place);
+    this->shared_.add_injected(*place++);
     paths.from.push_back(-1);
     paths.entered_by.push_back(point.face);
     start.push_back(point.share);
   }
+  this->inflow_.next_id += places.count;
 }
 
 template <int Dim>
@@ -194,6 +213,7 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
     paths.from.push_back(this->grid_.mesh.element_region[e]);
   }
   std::vector<double> start(points_.element.size(), 0.0);
+  this->shared_.start_step(points_, begins_);
   inject(volume, pressure, paths, start);
   paths.fines = points_.fines_mass;
 
@@ -219,7 +239,9 @@ auto PointsAlongFaces<Dim>::follow(const std::vector<double>& volume,
       failure = std::current_exception();
     }
   }
-  if (failure) std::rethrow_exception(failure);
+  together(this->grid_.ranks(), [&] {
+    if (failure) std::rethrow_exception(failure);
+  });
   std::size_t all = 0;
   for (const auto& of_block : uptakes) all += of_block.size();
   paths.uptakes.reserve(all);
@@ -251,6 +273,7 @@ std::vector<double> PointsAlongFaces<Dim>::mean_fines() const {
   for (std::size_t e = 0; e < fines.size(); ++e) {
     if (water[e] > 0.0) fines[e] /= water[e];
   }
+  this->grid_.element_rows().exchange(fines);
   return fines;
 }
 
@@ -265,6 +288,12 @@ void PointsAlongFaces<Dim>::follow_point(int p, double start, const FaceWalkFiel
   passages.clear();
   paths.left_by[p] =
       walk_along_faces(this->grid_, field, place, start, 1.0, points_.id[p], passages);
+  const int face = paths.left_by[p];
+  if (face >= 0 && this->grid_.ranks().count() > 1 && !this->grid_.is_border(face)) {
+    throw NumericalError(
+        "a liquid point crosses more than two elements in one step, which cannot be followed on "
+        "several ranks; take a smaller time.step, or one process: suffuse-solver");
+  }
   points_.element[p] = place.element;
   points_.barycentric[p] = place.barycentric;
   for (const FacePassage<Dim>& passage : passages) {
@@ -296,14 +325,31 @@ void PointsAlongFaces<Dim>::settle(const Paths& paths) {
     }
     if (paths.left_by[p] < 0) continue;
     keep[p] = 0;
-    const int face = paths.left_by[p];
-    crossings.push_back({last, -1, -1, face, points_.water_mass[p], points_.fines_mass[p]});
-    this->inflow_.volume[face] +=
-        liquid_volume(points_.water_mass[p], points_.fines_mass[p], this->densities_, 1.0);
+    crossings.push_back(
+        {last, -1, -1, paths.left_by[p], points_.water_mass[p], points_.fines_mass[p]});
   }
-  keep_points(points_, keep);
-  sort_by_element(points_, this->grid_.mesh.element_count());
+  book_outflow(paths);
+  this->shared_.settle(points_, std::move(keep));
   begins_ = element_begins(points_, this->grid_.mesh.element_count());
+}
+
+template <int Dim>
+void PointsAlongFaces<Dim>::book_outflow(const Paths& paths) {
+  const Grid<Dim>& grid = this->grid_;
+  const auto by_side = this->shared_.template sums<Dim + 1>([&](const auto& add) {
+    for (int p = 0; p < points_.size(); ++p) {
+      if (paths.left_by[p] < 0) continue;
+      const int e = points_.element[p];
+      std::array<double, Dim + 1> volume{};
+      volume[grid.side_of(e, paths.left_by[p])] =
+          liquid_volume(points_.water_mass[p], points_.fines_mass[p], this->densities_, 1.0);
+      add(e, p, volume);
+    }
+  });
+  for (const int f : this->injection_.open_faces()) {
+    const int e = grid.face_left[f];
+    this->inflow_.volume[f] += by_side[e][grid.side_of(e, f)];
+  }
 }
 
 template class PointsAlongFaces<2>;

@@ -82,6 +82,8 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   /// taken up in the first region cross its border with the point; others are received in the last
   /// region. A point that leaves the model crosses into its last region first.
   void settle(const Paths& paths);
+  /// Books the volumes of points that left the model at the faces they left by.
+  void book_outflow(const Paths& paths);
 
   LiquidPoints<Dim> points_;
   std::vector<double> mean_fines_;  ///< at the start of the step

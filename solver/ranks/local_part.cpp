@@ -63,7 +63,7 @@ class FacesOfElements {
 }  // namespace
 
 template <int Dim>
-LocalMesh<Dim> local_mesh(const Mesh<Dim>& whole, int rank, int count) {
+LocalMesh<Dim> local_mesh(const Mesh<Dim>& whole, int rank, int count, int rings) {
   const int elements = whole.element_count();
   if (elements < count) {
     throw InputError("got " + std::to_string(count) + " ranks for a mesh of " +
@@ -75,6 +75,13 @@ LocalMesh<Dim> local_mesh(const Mesh<Dim>& whole, int rank, int count) {
   std::vector<char> touched(whole.nodes.size(), 0);
   for (int e = first; e < last; ++e) {
     for (const int i : whole.elements[e]) touched[i] = 1;
+  }
+  for (int ring = 1; ring < rings; ++ring) {
+    const std::vector<char> before = touched;
+    for (const auto& nodes : whole.elements) {
+      if (std::ranges::none_of(nodes, [&](int i) { return before[i] != 0; })) continue;
+      for (const int i : nodes) touched[i] = 1;
+    }
   }
   LocalMesh<Dim> part;
   PartNumbers& numbers = part.numbers;
@@ -152,8 +159,8 @@ Case<Dim> local_case(const Case<Dim>& whole, LocalMesh<Dim> local) {
   return here;
 }
 
-template LocalMesh<2> local_mesh(const Mesh<2>&, int, int);
-template LocalMesh<3> local_mesh(const Mesh<3>&, int, int);
+template LocalMesh<2> local_mesh(const Mesh<2>&, int, int, int);
+template LocalMesh<3> local_mesh(const Mesh<3>&, int, int, int);
 template Case<2> local_case(const Case<2>&, LocalMesh<2>);
 template Case<3> local_case(const Case<3>&, LocalMesh<3>);
 

@@ -39,8 +39,9 @@ struct LocalMesh {
 
 /// Throws InputError if nodes are not numbered in the order in which elements use them, as
 /// suffuse-mesher does, or if a rank would have no element.
+/// \param rings  of elements around own ones: those that share a node with them, and so on
 template <int Dim>
-LocalMesh<Dim> local_mesh(const Mesh<Dim>& whole, int rank, int count);
+LocalMesh<Dim> local_mesh(const Mesh<Dim>& whole, int rank, int count, int rings = 1);
 
 /// The part of a case that belongs to such a part of its mesh: solid points of all its elements,
 /// liquid points of own elements.

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -75,6 +76,14 @@ class StarForestHalo final : public Halo {
   int first_;
   PetscSF forest_ = nullptr;
 };
+
+/// Throws where a message is too long for MPI.
+int checked_int(std::size_t bytes) {
+  if (bytes > std::numeric_limits<int>::max()) {
+    throw std::runtime_error("ranks send each other more than 2 GB at once; take more ranks");
+  }
+  return static_cast<int>(bytes);
+}
 
 class MpiRanks final : public Ranks {
  public:
@@ -155,6 +164,32 @@ class MpiRanks final : public Ranks {
       });
     }
     return own;
+  }
+
+  [[nodiscard]] std::vector<std::uint8_t> send(
+      const std::vector<std::vector<std::uint8_t>>& to) const override {
+    std::vector<int> sizes;
+    std::vector<int> begins;
+    std::vector<std::uint8_t> out;
+    for (const std::vector<std::uint8_t>& bytes : to) {
+      sizes.push_back(checked_int(bytes.size()));
+      begins.push_back(checked_int(out.size()));
+      out.insert(out.end(), bytes.begin(), bytes.end());
+    }
+    std::vector<int> coming(sizes.size());
+    petsc_check(MPI_Alltoall(sizes.data(), 1, MPI_INT, coming.data(), 1, MPI_INT, PETSC_COMM_WORLD),
+                "MPI_Alltoall");
+    std::vector<int> places;
+    std::size_t all = 0;
+    for (const int size : coming) {
+      places.push_back(checked_int(all));
+      all += static_cast<std::size_t>(size);
+    }
+    std::vector<std::uint8_t> in(static_cast<std::size_t>(checked_int(all)));
+    petsc_check(MPI_Alltoallv(out.data(), sizes.data(), begins.data(), MPI_BYTE, in.data(),
+                              coming.data(), places.data(), MPI_BYTE, PETSC_COMM_WORLD),
+                "MPI_Alltoallv");
+    return in;
   }
 
   [[nodiscard]] std::unique_ptr<SharedFactor> symmetric_factor() const override {

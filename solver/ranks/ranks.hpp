@@ -45,6 +45,11 @@ class Ranks {
   [[nodiscard]] virtual std::vector<std::uint8_t> gather(std::vector<std::uint8_t> own) const {
     return own;
   }
+  /// Sends bytes to each rank. Returns what the others sent, in the order of ranks.
+  [[nodiscard]] virtual std::vector<std::uint8_t> send(
+      const std::vector<std::vector<std::uint8_t>>& /*to*/) const {
+    return {};
+  }
   /// Whether all other ranks call this too, within some seconds. A rank that fails alone gets
   /// false.
   [[nodiscard]] virtual bool all_come() const { return true; }
@@ -99,6 +104,21 @@ std::vector<Value> gather_values(const Ranks& ranks, const std::vector<Value>& o
   std::vector<Value> all(bytes.size() / sizeof(Value));
   if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
   return all;
+}
+
+/// Sends values to each rank. Returns what the others sent, in the order of ranks.
+template <class Value>
+std::vector<Value> send_values(const Ranks& ranks, const std::vector<std::vector<Value>>& to) {
+  std::vector<std::vector<std::uint8_t>> bytes;
+  bytes.reserve(to.size());
+  for (const std::vector<Value>& values : to) {
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(values.data());
+    bytes.emplace_back(begin, begin + values.size() * sizeof(Value));
+  }
+  const std::vector<std::uint8_t> come = ranks.send(bytes);
+  std::vector<Value> result(come.size() / sizeof(Value));
+  if (!come.empty()) std::memcpy(result.data(), come.data(), come.size());
+  return result;
 }
 
 /// The values of all ranks, in their order, on all of them.

@@ -57,6 +57,17 @@ TaggedRows<Values> on_points(Values& values) {
   return {RowKind::points, values};
 }
 
+/// A vector of which each rank holds a part, of any length: the whole is that of rank 0, then that
+/// of rank 1, and so on. All ranks get the whole when it is restored.
+template <class Values>
+struct TaggedParts {
+  Values& values;
+};
+template <class Values>
+TaggedParts<Values> in_parts(Values& values) {
+  return {values};
+}
+
 /// How ranks share the state of a run. All ranks have to make the same calls.
 class SharedState {
  public:
@@ -217,6 +228,22 @@ class StateArchive {
     } else {
       collect_rows(rows.values, shared_->rows(rows.kind));
     }
+  }
+
+  template <class Value>
+  void pass(TaggedParts<std::vector<Value>>& parts) {
+    if (shared_ == nullptr || restores_) {
+      pass(parts.values);
+      return;
+    }
+    static_assert(is_contiguous<Value>());
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(parts.values.data());
+    const std::vector<std::uint8_t> all =
+        shared_->gather({begin, begin + parts.values.size() * sizeof(Value)});
+    in_rows_ = true;
+    pass_size(all.size() / sizeof(Value));
+    in_rows_ = false;
+    bytes_.insert(bytes_.end(), all.begin(), all.end());
   }
 
   /// Collects the rows of all ranks on rank 0.

@@ -19,7 +19,8 @@ struct TransferCase {
       : input(make(way, seeding, points_per_element, jitter)),
         grid(input.mesh),
         soils(input),
-        transfer(grid, soils, grain_density),
+        shared(grid),
+        transfer(grid, soils, shared, grain_density),
         pending(input.mesh.node_count(), 0.0) {
     const MaterialPoints<2>& seeded = input.liquid_points;
     points.element = seeded.element;
@@ -92,6 +93,7 @@ struct TransferCase {
   Case<2> input;
   Grid<2> grid;
   SoilMap<2> soils;
+  SharedPoints<2> shared;
   FinesTransfer<2> transfer;
   LiquidPoints<2> points;
   std::vector<double> pending;
@@ -113,7 +115,7 @@ TEST(FinesTransfer, LosesNothing) {
           now += grain_density * c.volume_of(e) * growth(e);
         }
         eroded += now;
-        EXPECT_NEAR(result.eroded[0], now, 1e-13);
+        EXPECT_NEAR(result.eroded[0].value(), now, 1e-13);
         EXPECT_NEAR(c.fines() + c.pending_mass(), eroded, 1e-12);
         for (const double mass : c.points.fines_mass) EXPECT_GE(mass, 0.0);
       }
@@ -188,8 +190,8 @@ TEST(FinesTransfer, WaitsForLiquidWhereThereIsNone) {
     const auto result = c.erode([](int) { return 0.0; });
     EXPECT_NEAR(c.fines(), grain_density * 1e-3, 1e-13);
     EXPECT_EQ(c.pending_mass(), 0.0);
-    EXPECT_EQ(result.eroded[0], 0.0);
-    EXPECT_NEAR(result.received[0], grain_density * 1e-3, 1e-13);
+    EXPECT_EQ(result.eroded[0].value(), 0.0);
+    EXPECT_NEAR(result.received[0].value(), grain_density * 1e-3, 1e-13);
   }
 }
 
@@ -226,8 +228,8 @@ TEST(FinesTransfer, AlongPathsEachUptakeGetsItsOwnTimesACommonFactor) {
     EXPECT_NEAR(take.mass / (grain_density * take.own_volume), 2.0, 1e-12);
     EXPECT_EQ(c.points.fines_mass[take.point], take.mass);
   }
-  EXPECT_NEAR(result.received[0], grain_density * 1e-3, 1e-13);
-  EXPECT_NEAR(result.eroded[0], grain_density * 1e-3, 1e-13);
+  EXPECT_NEAR(result.received[0].value(), grain_density * 1e-3, 1e-13);
+  EXPECT_NEAR(result.eroded[0].value(), grain_density * 1e-3, 1e-13);
 }
 
 TEST(FinesTransfer, AlongPathsNothingIsLost) {
@@ -242,8 +244,8 @@ TEST(FinesTransfer, AlongPathsNothingIsLost) {
     });
     const auto result = c.transfer.transfer_along_paths(c.exchange(growth), c.volumes(), c.points,
                                                         takes, c.pending);
-    EXPECT_NEAR(c.fines() + c.pending_mass(), result.eroded[0], 1e-13);
-    EXPECT_NEAR(c.fines(), result.received[0], 1e-13);
+    EXPECT_NEAR(c.fines() + c.pending_mass(), result.eroded[0].value(), 1e-13);
+    EXPECT_NEAR(c.fines(), result.received[0].value(), 1e-13);
     if (way == MassTransfer::nodal) continue;
     // By element: all fines that it eroded, if a point took up fines there.
     std::vector<double> of_element(c.input.mesh.element_count(), 0.0);
