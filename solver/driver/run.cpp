@@ -14,12 +14,12 @@
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
 #include "driver/progress.hpp"
+#include "driver/rank_refusals.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/run_notes.hpp"
 #include "driver/source_run.hpp"
 #include "driver/starting_point.hpp"
 #include "driver/stopwatch.hpp"
-#include "formulation/rank_refusals.hpp"
 #include "results/writer.hpp"
 
 namespace suffuse {
@@ -78,6 +78,7 @@ class Run final : public OutputSink<Dim> {
     together(ranks_, [&] { open_results(std::move(starting_point)); });
     // The model has its own points now.
     case_.liquid_points = {};
+    if (local_case_) local_case_->liquid_points = {};
   }
 
   ExitCode run() {
@@ -111,7 +112,8 @@ class Run final : public OutputSink<Dim> {
   }
 
   void warn(const std::string& text) override {
-    notes_.warnings.push_back(text);
+    const auto of_first = ranks_.of_first({text.begin(), text.end()});  // times in it differ
+    notes_.warnings.emplace_back(of_first.begin(), of_first.end());
     if (is_first_) progress_.say("suffuse-solver: warning: " + text);
   }
 
@@ -157,16 +159,15 @@ class Run final : public OutputSink<Dim> {
   std::shared_ptr<const RankPart> take_part() {
     if (ranks_.count() == 1) return nullptr;
     // Liquid points pass at most two elements in a step.
-    const bool has_points = case_.document.scene.formulation == Formulation::double_point;
-    LocalMesh<Dim> local =
-        local_mesh(case_.mesh, ranks_.rank(), ranks_.count(), has_points ? 2 : 1);
+    const int rings = case_.document.scene.formulation == Formulation::double_point ? 2 : 1;
+    LocalMesh<Dim> local = local_mesh(case_.mesh, ranks_.rank(), ranks_.count(), rings);
     auto part = std::make_shared<RankPart>(RankPart{options_.ranks, local.numbers});
     local_case_ = local_case(case_, std::move(local));
     if (!is_first_) {
       case_.mesh = {};
       case_.solid_points = {};
+      case_.liquid_points = {};
     }
-    case_.liquid_points = {};
     return part;
   }
 

@@ -30,7 +30,7 @@ class PointsCarryingFlow final : public PointTransport<Dim>, private FlowCarrier
     if (output_points_.size() == 0) output_points_ = points_.blocks().points();
     return output_points_;
   }
-  [[nodiscard]] int size() const override { return points_.blocks().size(); }
+  [[nodiscard]] long size() const override { return points_.blocks().size(); }
   [[nodiscard]] LiquidContent content() const override;
   [[nodiscard]] std::vector<double> point_pressure(const LiquidPoints<Dim>& points,
                                                    const FlowState<Dim>& flow) const override;

@@ -38,6 +38,8 @@ class DoublePoint final : public TwoPhaseModel<Dim> {
   [[nodiscard]] PoreState clean_pores() const;
   /// Creates flow and liquid points as the scene specifies.
   void start_liquid();
+  /// Linear fit to the concentrations of the points, per element and field node.
+  [[nodiscard]] ElementField<Dim> fitted(const FlowState<Dim>& flow) const;
   /// Concentrations of liquid points with these volumes.
   [[nodiscard]] std::vector<double> concentrations(const LiquidPoints<Dim>& points,
                                                    const std::vector<double>& volume) const;

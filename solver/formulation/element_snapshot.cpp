@@ -179,7 +179,8 @@ template <int Dim>
 Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                           const FinesState<Dim>& liquid, const FlowState<Dim>& flow,
                           const Scene& scene, long step,
-                          const std::vector<double>& acting_concentration) {
+                          const std::vector<double>& acting_concentration,
+                          std::vector<Field> of_elements) {
   Snapshot result;
   result.time = flow.time;
   result.step = step;
@@ -187,15 +188,16 @@ Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   add_flow(grid, flow, scene, result);
   add_solid_points(grid, solid, liquid, flow, acting_concentration, result);
   solid.describe(result);
+  for (Field& field : of_elements) result.cell.push_back(std::move(field));
   gather(grid, solid.soils(), result);
   return result;
 }
 
 template Snapshot element_snapshot(const Grid<2>&, const Skeleton<2>&, const FinesState<2>&,
                                    const FlowState<2>&, const Scene&, long,
-                                   const std::vector<double>&);
+                                   const std::vector<double>&, std::vector<Field>);
 template Snapshot element_snapshot(const Grid<3>&, const Skeleton<3>&, const FinesState<3>&,
                                    const FlowState<3>&, const Scene&, long,
-                                   const std::vector<double>&);
+                                   const std::vector<double>&, std::vector<Field>);
 
 }  // namespace suffuse

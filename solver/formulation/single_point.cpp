@@ -218,11 +218,10 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
       at = e;
     }
   }
-  const Ranks& ranks = this->grid_.ranks();
-  row.concentration_min = smallest_of_all(ranks, least);
-  row.concentration_max = largest_of_all(ranks, most);
-  const bool is_here = row.concentration_max == most;
-  row.concentration_max_at = ranks.first_text(is_here ? element_text(this->grid_, at) : "");
+  row.concentration_min = smallest_of_all(this->grid_.ranks(), least);
+  const auto [highest, place] = largest_of_all(this->grid_, most, at);
+  row.concentration_max = highest;
+  row.concentration_max_at = place;
   return row;
 }
 

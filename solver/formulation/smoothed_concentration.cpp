@@ -8,12 +8,14 @@ std::vector<double> smoothed_concentration(const Grid<Dim>& grid, const SoilMap<
                                            const std::vector<double>& volume) {
   constexpr int rounds = 4;
   const auto& region = grid.mesh.element_region;
-  std::vector<double> fines_of_region(grid.mesh.region_names.size(), 0.0);
-  std::vector<double> volume_of_region(fines_of_region.size(), 0.0);
-  for (std::size_t e = 0; e < volume.size(); ++e) {
-    fines_of_region[region[e]] += volume[e] * concentration[e];
-    volume_of_region[region[e]] += volume[e];
+  std::vector<ExactSum> fines_sum(grid.mesh.region_names.size());
+  std::vector<ExactSum> volume_sum(fines_sum.size());
+  for (const int e : grid.own_elements()) {
+    fines_sum[region[e]].add(volume[e] * concentration[e]);
+    volume_sum[region[e]].add(volume[e]);
   }
+  const std::vector<double> fines_of_region = values_of_all(grid.ranks(), std::move(fines_sum));
+  const std::vector<double> volume_of_region = values_of_all(grid.ranks(), std::move(volume_sum));
   for (int round = 0; round < rounds; ++round) {
     std::vector<double> fines(grid.mesh.node_count(), 0.0);
     std::vector<double> liquid(fines.size(), 0.0);
@@ -24,6 +26,8 @@ std::vector<double> smoothed_concentration(const Grid<Dim>& grid, const SoilMap<
         liquid[i] += volume[e];
       }
     }
+    grid.node_rows().exchange(fines);
+    grid.node_rows().exchange(liquid);
     for (int e = 0; e < grid.mesh.element_count(); ++e) {
       double mean = 0.0;
       for (const int i : grid.mesh.elements[e]) {

@@ -248,6 +248,15 @@ template struct Grid<2>;
 template struct Grid<3>;
 template int obtuse_elements(const Grid<2>&);
 template int obtuse_elements(const Grid<3>&);
+template <int Dim>
+LargestInElement largest_of_all(const Grid<Dim>& grid, double value, int element) {
+  const double largest = largest_of_all(grid.ranks(), value);
+  const bool is_here = element >= 0 && value == largest;
+  return {largest, grid.ranks().first_text(is_here ? element_text(grid, element) : "")};
+}
+
+template LargestInElement largest_of_all(const Grid<2>&, double, int);
+template LargestInElement largest_of_all(const Grid<3>&, double, int);
 template std::string element_text(const Grid<2>&, int);
 template std::string element_text(const Grid<3>&, int);
 template std::string node_text(const Grid<2>&, int);

@@ -137,6 +137,15 @@ int obtuse_elements(const Grid<Dim>& grid);
 /// "element 5 at (0.1 0.2)", with the centroid, for messages.
 template <int Dim>
 std::string element_text(const Grid<Dim>& grid, int element);
+/// The largest of a value that each rank has in one of its elements, and which element that is:
+/// empty without one.
+struct LargestInElement {
+  double value;
+  std::string at;
+};
+/// `element`: of this rank; -1: none. All ranks have to call it.
+template <int Dim>
+LargestInElement largest_of_all(const Grid<Dim>& grid, double value, int element);
 /// "at (x y)" for error messages.
 template <int Dim>
 std::string node_text(const Grid<Dim>& grid, int node);

@@ -6,7 +6,6 @@
 
 #include "grid/point_place.hpp"
 #include "mesh/material_points.hpp"
-#include "results/state_archive.hpp"
 
 namespace suffuse {
 
@@ -25,10 +24,6 @@ struct LiquidPoints {
 
   [[nodiscard]] int size() const { return static_cast<int>(element.size()); }
   [[nodiscard]] PointPlace<Dim> place(int p) const { return {element[p], barycentric[p]}; }
-  void archive(auto& archive) {
-    archive(in_parts(element), in_parts(barycentric), in_parts(water_mass), in_parts(fines_mass),
-            in_parts(id), in_parts(pressure), in_parts(velocity));
-  }
   /// Reserves memory for points that carry the flow.
   void reserve(int count);
 };

@@ -8,7 +8,6 @@
 #include "boundary/face_conditions.hpp"
 #include "mixed/flow.hpp"
 #include "points/liquid_points.hpp"
-#include "results/state_archive.hpp"
 
 namespace suffuse {
 

@@ -57,9 +57,13 @@ class PointTransport : public Transport<Dim> {
                               const std::vector<double>& pressure, SolidExchange<Dim>& exchange,
                               std::optional<double> steps = {});
 
-  /// Sorted by element. The reference is valid until the next interval.
+  /// Of this rank, sorted by element. The reference is valid until the next interval.
   [[nodiscard]] virtual const LiquidPoints<Dim>& points() const = 0;
-  [[nodiscard]] virtual int size() const = 0;
+  /// Likewise, with copies of the points in elements of other ranks that are here. All ranks have
+  /// to call it.
+  [[nodiscard]] LiquidPoints<Dim> points_around() const { return shared_.with_copies(points()); }
+  /// Number of points of all ranks.
+  [[nodiscard]] virtual long size() const = 0;
   [[nodiscard]] virtual LiquidContent content() const = 0;
   /// Mean concentration of the points in each element; 0 without points.
   [[nodiscard]] std::vector<double> element_concentration() const;

@@ -29,13 +29,17 @@ PointsAlongFaces<Dim>::PointsAlongFaces(const Grid<Dim>& grid, const Skeleton<Di
                                         const std::vector<double>& pressure)
     : PointTransport<Dim>(grid, solid, conditions, std::move(injection), densities, bulk_modulus,
                           threads),
-      points_(clean_liquid(places, pressure, densities, bulk_modulus)),
-      begins_(element_begins(points_, grid.mesh.element_count())) {
-  const Ranks& ranks = grid.ranks();
-  const long before = ranks.before(points_.size());
+      points_(clean_liquid(places, pressure, densities, bulk_modulus)) {
+  const long before = grid.ranks().before(points_.size());
   for (long& id : points_.id) id += before;
-  const auto all = static_cast<long>(sum_of_all(ranks, points_.size()));
-  this->inflow_ = this->injection_.initial_account(all);
+  note_points();
+  this->inflow_ = this->injection_.initial_account(all_points_);
+}
+
+template <int Dim>
+void PointsAlongFaces<Dim>::note_points() {
+  begins_ = element_begins(points_, this->grid_.mesh.element_count());
+  all_points_ = static_cast<long>(sum_of_all(this->grid_.ranks(), points_.size()));
 }
 
 template <int Dim>
@@ -44,11 +48,13 @@ void PointsAlongFaces<Dim>::archive(StateArchive& archive) {
   LiquidPoints<Dim> whole;
   if (!archive.restores()) whole = points_;
   this->shared_.number_elements(whole);
-  archive(whole);
+  archive(in_parts(whole.element), in_parts(whole.barycentric), in_parts(whole.water_mass),
+          in_parts(whole.fines_mass), in_parts(whole.id), in_parts(whole.pressure),
+          in_parts(whole.velocity));
   if (!archive.restores()) return;
   this->shared_.take_own(whole);
   points_ = std::move(whole);
-  begins_ = element_begins(points_, this->grid_.mesh.element_count());
+  note_points();
 }
 
 template <int Dim>
@@ -330,7 +336,7 @@ void PointsAlongFaces<Dim>::settle(const Paths& paths) {
   }
   book_outflow(paths);
   this->shared_.settle(points_, std::move(keep));
-  begins_ = element_begins(points_, this->grid_.mesh.element_count());
+  note_points();
 }
 
 template <int Dim>

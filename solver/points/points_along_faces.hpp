@@ -20,7 +20,7 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   [[nodiscard]] double longest_step(const std::vector<double>& face_rate) const override;
 
   [[nodiscard]] const LiquidPoints<Dim>& points() const override { return points_; }
-  [[nodiscard]] int size() const override { return points_.size(); }
+  [[nodiscard]] long size() const override { return all_points_; }
   [[nodiscard]] LiquidContent content() const override;
   [[nodiscard]] std::vector<double> point_pressure(const LiquidPoints<Dim>& points,
                                                    const FlowState<Dim>& flow) const override;
@@ -45,8 +45,10 @@ class PointsAlongFaces final : public PointTransport<Dim> {
     points.pressure.clear();
     points.velocity.clear();
     points_ = std::move(points);
-    begins_ = element_begins(points_, this->grid_.mesh.element_count());
+    note_points();
   }
+  /// Call when points have come or gone.
+  void note_points();
   /// Paths of points in a step. Points that left are included, in their last element; injected
   /// points are at the end.
   struct Paths {
@@ -88,6 +90,7 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   LiquidPoints<Dim> points_;
   std::vector<double> mean_fines_;  ///< at the start of the step
   std::vector<int> begins_;         ///< points of each element
+  long all_points_ = 0;             ///< of all ranks
   std::vector<double> porosity_;    ///< per element, at the start of the step
   // Motion of the solid; empty if it is rigid.
   std::vector<double> opening_;         ///< change of porosity by motion in the interval

@@ -1,13 +1,14 @@
 #!/bin/sh
 # A run on four ranks goes on with two, then in one process, and has the files of a run that never
 # stopped, byte by byte, but for run.json.
-#   resume.sh FOLDER_OF_PROGRAMS MPIRUN SCENE.toml
+#   resume.sh FOLDER_OF_PROGRAMS MPIRUN SCENE.toml [MESHER OPTION...]
 set -eu
 programs=$1 mpirun=$2 scene=$3
+shift 3
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-"$programs/suffuse-mesher" "$scene" -o case.h5 --set output.restarts=10 > mesher.log 2>&1
+"$programs/suffuse-mesher" "$scene" -o case.h5 --set output.restarts=10 "$@" > mesher.log 2>&1
 on_ranks() {
   count=$1
   shift
