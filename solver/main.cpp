@@ -53,7 +53,7 @@ std::string default_folder(const std::string& case_path) {
 template <int Dim>
 int explain(const suffuse::Case<Dim>& c, const suffuse::Plan& plan, int threads) {
   using namespace suffuse;
-  const std::optional<SourceRun<Dim>> earlier = read_source_run(c, threads);
+  const std::optional<SourceRun<Dim>> earlier = read_source_run(c, {.threads = threads});
   if (earlier) {
     for (const std::string& sentence : earlier->sentences) std::cout << sentence << '\n';
   }

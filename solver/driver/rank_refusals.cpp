@@ -22,8 +22,6 @@ void refuse_on_ranks(const Case<Dim>& c) {
       scene.time.scheme == FlowScheme::explicit_nodal && scene.initial_flow == InitialFlow::steady,
       "initial.flow", "\"steady\" with the explicit scheme", "\"rest\"");
   refuse(scene.mesh.error.has_value(), "mesh.error", "bounds of discharges", "no such key");
-  refuse(!scene.initial_from.empty(), "initial.from", "a run", "no run");
-  refuse(!scene.output.sections.empty(), "output.section", "sections", "no sections");
   refuse(std::ranges::any_of(scene.walls, &Wall::conductance), "wall",
          "walls that let liquid through", "walls without a conductance");
   refuse(scene.moves(), "soil", "soil that moves", "soil at rest");

@@ -157,18 +157,14 @@ class Run final : public OutputSink<Dim> {
  private:
   /// Takes the part of this rank out of the case, if there are several.
   std::shared_ptr<const RankPart> take_part() {
-    if (ranks_.count() == 1) return nullptr;
-    // Liquid points pass at most two elements in a step.
-    const int rings = case_.document.scene.formulation == Formulation::double_point ? 2 : 1;
-    LocalMesh<Dim> local = local_mesh(case_.mesh, ranks_.rank(), ranks_.count(), rings);
-    auto part = std::make_shared<RankPart>(RankPart{options_.ranks, local.numbers});
-    local_case_ = local_case(case_, std::move(local));
+    OwnPart<Dim> taken = own_part(case_, options_.ranks);
+    local_case_ = std::move(taken.own);
     if (!is_first_) {
       case_.mesh = {};
       case_.solid_points = {};
       case_.liquid_points = {};
     }
-    return part;
+    return taken.part;
   }
 
   /// Replaces the results of an earlier run, after everything that can fail because of the case.
@@ -378,7 +374,7 @@ int run_case(Case<Dim> c, const Plan& plan, const SolverOptions& options, const 
   }
   // A resumed run has all that it needs in its own state.
   std::optional<SourceRun<Dim>> source;
-  if (!starting_point->from) source = read_source_run(c, options.threads);
+  if (!starting_point->from) together(ranks, [&] { source = read_source_run(c, options); });
   if (source) refuse_own_source(c.document, *source, folder);
   const std::string program =
       ranks.count() == 1 ? "suffuse-solver "

@@ -98,11 +98,14 @@ class Comparison {
 
 /// Restores a model of the case to the state of `point`, and returns this state.
 template <int Dim>
-EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, int threads) {
-  const Plan plan = make_plan(c, {threads, point.no_skip});
-  RunLoop<Dim> loop(c, plan);
+EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, const SolverOptions& options) {
+  const Plan plan = make_plan(c, {options.threads, point.no_skip});
+  OwnPart<Dim> taken = own_part(c, options.ranks);
+  ModelOptions of_model = plan;
+  of_model.part = taken.part;
+  RunLoop<Dim> loop(taken.own ? *taken.own : c, of_model);
   RunNotes notes{.checks = {c.document.scene, plan.speed_that_drag_follows}};
-  StateArchive state(std::move(point.state));
+  StateArchive state(std::move(point.state), loop.model().shared_state());
   state(loop, notes);
   state.finish();
   return loop.model().last_state();
@@ -121,7 +124,7 @@ bool have_same_points(const Case<Dim>& a, const Case<Dim>& b) {
 }
 
 template <int Dim>
-std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads) {
+std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, const SolverOptions& options) {
   const SceneDocument& document = c.document;
   if (document.scene.initial_from.empty()) return std::nullopt;
   const std::string folder = file_beside_scene(document.path, document.scene.initial_from);
@@ -162,13 +165,13 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads) {
   for (const std::string& difference : scene_differences(earlier.document, document)) {
     result.sentences.push_back("differs: " + difference);
   }
-  result.state = restored(earlier, std::move(*found.point), threads);
+  result.state = restored(earlier, std::move(*found.point), options);
   return result;
 }
 
 template bool have_same_points(const Case<2>&, const Case<2>&);
 template bool have_same_points(const Case<3>&, const Case<3>&);
-template std::optional<SourceRun<2>> read_source_run(const Case<2>&, int);
-template std::optional<SourceRun<3>> read_source_run(const Case<3>&, int);
+template std::optional<SourceRun<2>> read_source_run(const Case<2>&, const SolverOptions&);
+template std::optional<SourceRun<3>> read_source_run(const Case<3>&, const SolverOptions&);
 
 }  // namespace suffuse

@@ -25,8 +25,8 @@ bool have_same_points(const Case<Dim>& a, const Case<Dim>& b);
 
 /// Reads the last state of the run; nothing if the scene names none. Throws InputError if the run
 /// is not done, or has another formulation, mesh, water or soil; FileError if its files cannot be
-/// read.
+/// read. On several ranks each gets its part of the state.
 template <int Dim>
-std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, int threads);
+std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, const SolverOptions& options);
 
 }  // namespace suffuse

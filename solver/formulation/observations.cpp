@@ -155,10 +155,13 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
 
 template <int Dim>
 std::vector<SectionRow> Observations<Dim>::section_rows(const FlowState<Dim>& flow) const {
+  std::vector<ExactSum> flux;
+  for (const SectionLine& section : sections_) flux.push_back(section.across(flow.face_flux));
+  const std::vector<double> fluxes = values_of_all(grid_.ranks(), std::move(flux));
+  const std::vector<double> volumes = values_of_all(grid_.ranks(), volumes_);
   std::vector<SectionRow> rows;
   for (std::size_t i = 0; i < sections_.size(); ++i) {
-    rows.push_back({flow.time, static_cast<double>(i), sections_[i].across(flow.face_flux),
-                    volumes_[i].value()});
+    rows.push_back({flow.time, static_cast<double>(i), fluxes[i], volumes[i]});
   }
   return rows;
 }

@@ -14,7 +14,7 @@ constexpr double on_boundary = 1e-9;
 
 /// The coordinates of both ends of a line in an element that the line may touch.
 struct Candidate {
-  int element;
+  long element;  ///< number in the whole mesh
   std::array<double, 3> from;
   std::array<double, 3> to;
 
@@ -79,15 +79,17 @@ std::optional<PointPlace<Dim>> find_place(const Grid<Dim>& grid, const Vector<Di
 }
 
 SectionLine::SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vector<2>& to) {
-  std::vector<Candidate> candidates;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const Candidate c{e, barycentric(grid.mesh, e, from), barycentric(grid.mesh, e, to)};
-    if (c.touches()) candidates.push_back(c);
+  std::vector<Candidate> own;
+  for (const int e : grid.own_elements()) {
+    const Candidate c{grid.element_number(e), barycentric(grid.mesh, e, from),
+                      barycentric(grid.mesh, e, to)};
+    if (c.touches()) own.push_back(c);
   }
+  const std::vector<Candidate> candidates = values_on_all(grid.ranks(), own);
   const std::vector<double> shares = crossing_shares(candidates);
   const Vector<2> way = to - from;
-  const Vector<2> rightward(way[1], -way[0]);  // as long as the line
-  std::map<int, double> weights;
+  const Vector<2> rightward(way[1], -way[0]);    // as long as the line
+  std::map<int, std::array<double, 3>> weights;  // of the sides of elements
   for (std::size_t i = 0; i + 1 < shares.size(); ++i) {
     const double part = shares[i + 1] - shares[i];
     const double middle = 0.5 * (shares[i] + shares[i + 1]);
@@ -96,22 +98,25 @@ SectionLine::SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vecto
     const auto best = std::ranges::max_element(candidates, {},
                                                [&](const Candidate& c) { return c.depth(middle); });
     if (best == candidates.end() || !best->holds(middle, part)) continue;
-    const int e = best->element;
+    length_ += part * way.norm();
+    const int e = grid.element_here(best->element);
+    if (e < 0 || !grid.element_rows().owns(e)) continue;
     const Vector<2> x = from + middle * way;
     for (int k = 0; k < 3; ++k) {
       const Vector<2> arm = x - grid.mesh.nodes[grid.mesh.elements[e][k]];
-      weights[grid.element_face[e][k]] +=
+      weights[e][k] +=
           grid.element_face_sign[e][k] * part * arm.dot(rightward) / (2.0 * grid.volume[e]);
     }
-    length_ += part * way.norm();
   }
-  for (const auto& [face, weight] : weights) weights_.push_back({face, weight});
+  for (const auto& [e, of_sides] : weights) {
+    for (int k = 0; k < 3; ++k) weights_.push_back({grid.element_face[e][k], of_sides[k]});
+  }
 }
 
-double SectionLine::across(const std::vector<double>& face_values) const {
+ExactSum SectionLine::across(const std::vector<double>& face_values) const {
   ExactSum sum;
   for (const auto& [face, weight] : weights_) sum.add(weight * face_values[face]);
-  return sum.value();
+  return sum;
 }
 
 template std::optional<PointPlace<2>> find_place(const Grid<2>&, const Vector<2>&);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/point_place.hpp"
+#include "ranks/exact_sum.hpp"
 
 namespace suffuse {
 
@@ -19,20 +20,22 @@ std::optional<PointPlace<Dim>> find_place(const Grid<Dim>& grid, const Vector<Di
 /// runs along faces, each piece counts once; parts outside the mesh do not count.
 class SectionLine {
  public:
+  /// All ranks have to call it.
   SectionLine(const Grid<2>& grid, const Vector<2>& from, const Vector<2>& to);
 
   /// Length within the mesh, m.
   [[nodiscard]] double length() const { return length_; }
-  /// What crosses the line from its left side to its right side, looking from `from` to `to`.
-  /// `face_values`: along each face's normal, m3/s or m3; the result has their unit.
-  [[nodiscard]] double across(const std::vector<double>& face_values) const;
+  /// What crosses the line from its left side to its right side, looking from `from` to `to`, in
+  /// the elements of this rank. `face_values`: along each face's normal, m3/s or m3; the result has
+  /// their unit.
+  [[nodiscard]] ExactSum across(const std::vector<double>& face_values) const;
 
  private:
   struct FaceWeight {
     int face;
     double weight;
   };
-  std::vector<FaceWeight> weights_;  ///< ascending by face
+  std::vector<FaceWeight> weights_;  ///< of the sides of each own element
   double length_ = 0.0;
 };
 

@@ -159,6 +159,18 @@ Case<Dim> local_case(const Case<Dim>& whole, LocalMesh<Dim> local) {
   return here;
 }
 
+template <int Dim>
+OwnPart<Dim> own_part(const Case<Dim>& whole, const std::shared_ptr<const Ranks>& ranks) {
+  if (ranks->count() == 1) return {};
+  // Liquid points pass at most two elements in a step.
+  const int rings = whole.document.scene.formulation == Formulation::double_point ? 2 : 1;
+  LocalMesh<Dim> local = local_mesh(whole.mesh, ranks->rank(), ranks->count(), rings);
+  auto part = std::make_shared<RankPart>(RankPart{ranks, local.numbers});
+  return {std::move(part), local_case(whole, std::move(local))};
+}
+
+template OwnPart<2> own_part(const Case<2>&, const std::shared_ptr<const Ranks>&);
+template OwnPart<3> own_part(const Case<3>&, const std::shared_ptr<const Ranks>&);
 template LocalMesh<2> local_mesh(const Mesh<2>&, int, int, int);
 template LocalMesh<3> local_mesh(const Mesh<3>&, int, int, int);
 template Case<2> local_case(const Case<2>&, LocalMesh<2>);

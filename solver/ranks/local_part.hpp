@@ -3,6 +3,7 @@
 /// The part of a mesh, and of a case, that one rank holds.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "case/case_file.hpp"
@@ -47,5 +48,15 @@ LocalMesh<Dim> local_mesh(const Mesh<Dim>& whole, int rank, int count, int rings
 /// liquid points of own elements.
 template <int Dim>
 Case<Dim> local_case(const Case<Dim>& whole, LocalMesh<Dim> local);
+
+/// The part of a case that a rank computes; both are empty if the program is alone.
+template <int Dim>
+struct OwnPart {
+  std::shared_ptr<const RankPart> part;
+  std::optional<Case<Dim>> own;
+};
+/// Throws as `local_mesh` does.
+template <int Dim>
+OwnPart<Dim> own_part(const Case<Dim>& whole, const std::shared_ptr<const Ranks>& ranks);
 
 }  // namespace suffuse

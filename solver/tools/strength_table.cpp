@@ -58,7 +58,7 @@ Snapshot start_snapshot(const Case<Dim>& c, int threads) {
       if (soil.skeleton.moves()) soil.skeleton.law = skeleton_law("elastic");
     }
   }
-  const std::optional<SourceRun<Dim>> earlier = read_source_run(strong, threads);
+  const std::optional<SourceRun<Dim>> earlier = read_source_run(strong, {.threads = threads});
   const RunLoop<Dim> loop(strong, make_plan(strong, {.threads = threads}),
                           earlier ? &earlier->state : nullptr);
   return loop.model().snapshot(loop.model().flow_state());

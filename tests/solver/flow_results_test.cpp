@@ -45,8 +45,8 @@ class Sections : public testing::Test {
   void expect_exact(const Vector<2>& from, const Vector<2>& to) const {
     const std::vector<double> flux = fluxes_of(grid_, stream_);
     const double exact = value_at(grid_, stream_, to) - value_at(grid_, stream_, from);
-    EXPECT_NEAR(SectionLine(grid_, from, to).across(flux), exact, 1e-12);
-    EXPECT_NEAR(SectionLine(grid_, to, from).across(flux), -exact, 1e-12);
+    EXPECT_NEAR(SectionLine(grid_, from, to).across(flux).value(), exact, 1e-12);
+    EXPECT_NEAR(SectionLine(grid_, to, from).across(flux).value(), -exact, 1e-12);
     EXPECT_NEAR(SectionLine(grid_, from, to).length(), (to - from).norm(), 1e-12);
   }
 
@@ -78,19 +78,19 @@ TEST_F(Sections, AlongManyFacesOfAnEvenMesh) {
   const std::vector<double> flux = fluxes_of(grid, stream_);
   for (int j = 0; j <= 7; ++j) {
     const SectionLine line(grid, {0.0, j / 7.0}, {1.0, j / 7.0});
-    EXPECT_NEAR(line.across(flux), stream_[10 * j + 9] - stream_[10 * j], 1e-12) << j;
+    EXPECT_NEAR(line.across(flux).value(), stream_[10 * j + 9] - stream_[10 * j], 1e-12) << j;
     EXPECT_NEAR(line.length(), 1.0, 1e-12);
   }
   // Along the diagonals of seven cells.
   const SectionLine diagonal(grid, {0.0, 0.0}, {7.0 / 9.0, 1.0});
-  EXPECT_NEAR(diagonal.across(flux), stream_[77] - stream_[0], 1e-12);
+  EXPECT_NEAR(diagonal.across(flux).value(), stream_[77] - stream_[0], 1e-12);
 }
 
 TEST_F(Sections, PartsOutsideCountNothing) {
   const std::vector<double> flux = fluxes_of(grid_, stream_);
   const SectionLine inside(grid_, {0.0, 0.25}, {1.0, 0.5});
   const SectionLine beyond(grid_, {-1.0, 0.0}, {3.0, 1.0});
-  EXPECT_NEAR(beyond.across(flux), inside.across(flux), 1e-12);
+  EXPECT_NEAR(beyond.across(flux).value(), inside.across(flux).value(), 1e-12);
   EXPECT_NEAR(beyond.length(), inside.length(), 1e-12);
   EXPECT_EQ(SectionLine(grid_, {2.0, 0.0}, {2.0, 1.0}).length(), 0.0);
 }
@@ -107,7 +107,7 @@ TEST_F(Sections, ThatLeaveTheMeshAtANodeEndThere) {
   EXPECT_NEAR(line.length(), 1.0, 1e-14);
   // The foot of the line is 6.6e-11 m, in cells of 1/9 m, to the left of the node.
   const double foot = stream_[4] + 9.0 * 6.6e-11 * (stream_[3] - stream_[4]);
-  EXPECT_NEAR(line.across(flux), stream_[7 * 10 + 4] - foot, 1e-14);
+  EXPECT_NEAR(line.across(flux).value(), stream_[7 * 10 + 4] - foot, 1e-14);
 }
 
 TEST_F(Sections, OfLiquidThatSpreads) {
@@ -119,7 +119,7 @@ TEST_F(Sections, OfLiquidThatSpreads) {
   const Vector<2> from(0.1, 0.2);
   const Vector<2> to(0.9, 0.5);
   const double exact = from[0] * (to - from)[1] - from[1] * (to - from)[0];
-  EXPECT_NEAR(SectionLine(grid_, from, to).across(flux), exact, 1e-12);
+  EXPECT_NEAR(SectionLine(grid_, from, to).across(flux).value(), exact, 1e-12);
 }
 
 OutputSection section(double x0, double y0, double x1, double y1) {
