@@ -20,7 +20,8 @@ expected='suffuse-mesher suffuse-post suffuse-solver'
 texts=
 if [ "$has_mpi" = 1 ]; then
   expected+=' suffuse-solver-mpi'
-  texts='share/man/man1/suffuse-solver-mpi.1 share/bash-completion/completions/suffuse-solver-mpi'
+  texts='share/man/man1/suffuse-solver-mpi.1 share/bash-completion/completions/suffuse-solver-mpi
+    share/suffuse/suffuse.sbatch'
 fi
 [ "$programs" = "$expected" ] || fail "bin/ has: $programs; expected: $expected"
 for file in $texts share/man/man1/suffuse-post.1 share/bash-completion/completions/suffuse-solver \

@@ -55,6 +55,7 @@ if(TARGET suffuse-solver-mpi)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi)
   install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
           RENAME suffuse-solver-mpi COMPONENT mpi)
+  install(PROGRAMS workflows/cluster/suffuse.sbatch DESTINATION ${CMAKE_INSTALL_DATADIR}/suffuse COMPONENT mpi)
 endif()
 install(FILES post/python/suffuse.py DESTINATION ${SUFFUSE_PYTHON_DIR} COMPONENT programs)
 install(FILES workflows/paraview/show_results.py DESTINATION ${CMAKE_INSTALL_DATADIR}/suffuse COMPONENT programs)
