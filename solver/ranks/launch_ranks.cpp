@@ -29,11 +29,12 @@ void ask_to_stop(int) {
 }
 
 fs::path shared_solver() {
-  fs::path beside = fs::read_symlink("/proc/self/exe").parent_path() / "suffuse-solver-mpi";
-  if (fs::exists(beside)) return beside;
-  throw FileError(
-      "--ranks: suffuse-solver-mpi is not beside suffuse-solver: this installation has no runs on "
-      "several processes (docs/ranks.md)");
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  fs::path program = folder / "suffuse-solver-mpi";
+  if (fs::exists(program)) return program;
+  throw FileError("--ranks: found no suffuse-solver-mpi in " + folder.string() +
+                  ", the folder of suffuse-solver; install the package suffuse-mpi, or build "
+                  "Suffuse where PETSc and MPI are installed (docs/ranks.md)");
 }
 
 /// Becomes mpirun; does not return.
@@ -83,7 +84,7 @@ int launch_ranks(int ranks, const std::vector<std::string>& arguments) {
   // A process that a signal ends while it starts may leave mpirun waiting for ever.
   words.insert(words.end(), {"sh", "-c", "trap '' USR1; exec \"$0\" \"$@\"", shared_solver()});
   words.insert(words.end(), arguments.begin(), arguments.end());
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
     // A program started by nohup must continue to ignore SIGHUP.
     if (std::signal(signal, ask_to_stop) == SIG_IGN) std::signal(signal, SIG_IGN);
   }

@@ -39,6 +39,7 @@ expect 'a case' 'folder|my run.results|weir.case.h5|weir.results' suffuse-solver
 expect 'a folder' 'folder|my run.results|weir.results' suffuse-solver weir.case.h5 --output ''
 expect 'the same behind =' 'weir.results' suffuse-solver --output = we
 expect 'the same directly behind =' 'folder|my run.results|weir.results' suffuse-solver --output =
+expect 'options of the solver for several processes' '--resume' suffuse-solver-mpi weir.case.h5 --res
 expect 'subcommands' 'render|report' suffuse-post re
 expect 'options of a subcommand' '--tolerance' suffuse-post ledger weir.results --to
 expect 'options of a group' '--x-range' suffuse-post figure porosity weir.results --x-

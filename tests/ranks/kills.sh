@@ -1,6 +1,6 @@
 #!/bin/sh
-# Ends runs on ranks in rude ways at random times: a rank or mpirun is killed, the launcher gets SIGINT or
-# SIGTERM or is killed. Each run goes on with another number of ranks until it is done, and has the files of
+# Ends runs on ranks in rude ways at random times: a rank or mpirun is killed, the launcher gets SIGINT,
+# SIGTERM or SIGUSR1 or is killed. Each run goes on with another number of ranks until it is done, and has the files of
 # a run that never stopped, byte by byte, but for run.json.
 #   kills.sh FOLDER_OF_PROGRAMS SCENE.toml KILLS SEED
 set -eu
@@ -36,7 +36,7 @@ while [ "$killed" -lt "$kills" ] && [ "$attempt" -lt $((6 * kills)) ]; do
   tenths=$(($(cat number) + 3))
   sleep "$((tenths / 10)).$((tenths % 10))"
   seed=$((seed + attempt))
-  random 5 > number
+  random 6 > number
   way=$(cat number)
   mpirun=$(children $launcher | head -1)
   case $way in
@@ -45,6 +45,7 @@ while [ "$killed" -lt "$kills" ] && [ "$attempt" -lt $((6 * kills)) ]; do
     2) target=$launcher signal=INT expected='130' ;;
     3) target=$launcher signal=TERM expected='130' ;;
     4) target=$launcher signal=KILL expected='137' ;;
+    5) target=$launcher signal=USR1 expected='130' ;;
   esac
   if [ -n "$target" ] && kill -$signal "$target" 2> /dev/null; then killed=$((killed + 1)); fi
   code=0

@@ -6,7 +6,7 @@ string(APPEND licence "\n-------------------------------------------------------
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 string(CONCAT changes "suffuse (${CPACK_PACKAGE_VERSION}) stable; urgency=medium\n\n"
   "  * What changed is in CHANGELOG.md of the package suffuse.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
-foreach(component programs development)
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   set(tree ${CPACK_TEMPORARY_DIRECTORY}/${component})
   string(TOUPPER ${component} COMPONENT)
   set(documents ${tree}/usr/share/doc/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})

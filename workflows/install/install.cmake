@@ -1,5 +1,6 @@
-# What `cmake --install` installs, and what other CMake projects find. There are two components:
-# `programs`, and `development`, the reader of results for programs of users.
+# What `cmake --install` installs, and what other CMake projects find. There are three components:
+# `programs`; `mpi`, the solver for several processes, where the build has it; and `development`, the
+# reader of results for programs of users.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
@@ -46,6 +47,16 @@ foreach(program IN LISTS programs)
   install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program}
           COMPONENT programs)
 endforeach()
+# suffuse-solver-mpi has the manual page and the completion of suffuse-solver.
+if(TARGET suffuse-solver-mpi)
+  install(TARGETS suffuse-solver-mpi RUNTIME COMPONENT mpi)
+  set(page ${install_texts}/suffuse-solver-mpi.1)
+  file(WRITE ${page} ".so man1/suffuse-solver.1\n")
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi)
+  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+          RENAME suffuse-solver-mpi COMPONENT mpi)
+  install(PROGRAMS workflows/cluster/suffuse.sbatch DESTINATION ${CMAKE_INSTALL_DATADIR}/suffuse COMPONENT mpi)
+endif()
 install(FILES post/python/suffuse.py DESTINATION ${SUFFUSE_PYTHON_DIR} COMPONENT programs)
 install(FILES workflows/paraview/show_results.py DESTINATION ${CMAKE_INSTALL_DATADIR}/suffuse COMPONENT programs)
 

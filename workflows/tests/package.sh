@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tests the Debian packages on a bare Debian 12, in a folder of its own: apt installs them, the
-# commands of the README are run, and they are removed without a trace; then lintian checks them,
-# and a program is built with suffuse-dev.
+# commands of the README are run, a case is run on two ranks with suffuse-mpi, and they are removed
+# without a trace; then lintian checks them, and a program is built with suffuse-dev.
 #   package.sh FOLDER     FOLDER has the packages; the base system and what apt downloads are kept there for the next time
 # Needs root and debootstrap. MIRROR=URL: where Debian is; LINTIAN= leaves lintian out.
 set -euo pipefail
@@ -39,7 +39,7 @@ cp -L /etc/resolv.conf "$root/etc/resolv.conf"
 cp "$cache"/archives/*.deb "$root/var/cache/apt/archives/" 2> /dev/null || true
 mkdir "$root/srv/suffuse"
 cp "$folder"/suffuse*.deb "$source/README.md" "$root/srv/suffuse/"
-cp -r "$source/tests/install/consumer" "$root/srv/suffuse/"
+cp -r "$source/tests/install/consumer" "$source/tests/ranks/scenes" "$root/srv/suffuse/"
 
 # inside: runs bash commands from stdin in the new system.
 inside() {
@@ -84,12 +84,47 @@ man suffuse-solver | grep -q -- '--checkpoint-every'
 echo 'manual pages are read'
 python3 -c 'import suffuse' 2> page || grep -q 'No module named' page  # numpy is only recommended
 
+# VTK has libraries of MPI. What starts processes, and PETSc, come with suffuse-mpi.
+{ dpkg-deb -f suffuse_*.deb Depends; dpkg-query -Wf '${Package}\n'; } | grep -E '(^| )(openmpi-bin|libpetsc.*)$|, libopenmpi' &&
+  { echo 'suffuse needs these'; exit 1; }
 apt purge suffuse
 files > after
 diff before after || { echo 'the package left these behind, or took them away'; exit 1; }
 echo 'removed: nothing is left'
 E2
 save_archives
+
+# Where PETSc is missing, suffuse-mpi is not made.
+if compgen -G "$folder/suffuse-mpi_*.deb" > /dev/null; then
+  inside <<'E2' || { save_archives; fail 'suffuse-mpi'; }
+cd /srv/suffuse
+apt() { apt-get -qq --yes --no-install-recommends "$@" > log 2>&1 < /dev/null || { tail -20 log; return 1; }; }
+files() { find /etc /usr /var/lib -xdev \( -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print | sort; }
+apt install ./suffuse_*.deb
+mkdir ranks && cd ranks
+suffuse-mesher ../scenes/basin.toml -o basin.case.h5 > log
+suffuse-solver basin.case.h5 -o alone --quiet 2> log
+code=0
+suffuse-solver basin.case.h5 -o shared --ranks 2 2> log || code=$?
+{ [ $code = 4 ] && grep -q 'install the package suffuse-mpi' log; } || { cat log; exit 1; }
+chown -R 1000 .
+cd ..
+apt satisfy "$(dpkg-deb -f suffuse-mpi_*.deb Depends)"
+files > before-mpi
+apt install ./suffuse-mpi_*.deb
+cd ranks
+HOME=$PWD setpriv --reuid 1000 --regid 1000 --clear-groups suffuse-solver basin.case.h5 -o shared --ranks 2 --quiet 2> log || { cat log; exit 1; }
+grep -q '"ranks": 2' shared/run.json
+diff -r -x run.json -x .lock alone shared
+man suffuse-solver-mpi > page 2> warnings
+{ grep -q -- '--checkpoint-every' page && [ ! -s warnings ]; } || { cat page warnings; exit 1; }
+echo "suffuse-mpi: --ranks 2 has the files of one process; beside $(dpkg-query -W | wc -l) packages"
+cd ..
+apt purge suffuse-mpi
+files | diff before-mpi - || { echo 'suffuse-mpi left these behind, or took them away'; exit 1; }
+E2
+  save_archives
+fi
 
 inside <<'E2' || { save_archives; fail 'the packages for others'; }
 cd /srv/suffuse
