@@ -308,8 +308,9 @@ double ImplicitFlow<Dim>::error_of(const MixedStep<Dim>& step, double start, dou
     const NumberRange elements = this->grid().own_elements();
     const auto air = [&](const MixedState<Dim>& state) {
       if (state.air.empty()) return Span();
+      constexpr std::ptrdiff_t sides = Dim + 1;
       const double* values = state.air.front().data();
-      return Span(values + *elements.begin() * (Dim + 1), values + *elements.end() * (Dim + 1));
+      return Span(values + *elements.begin() * sides, values + *elements.end() * sides);
     };
     const auto air_of = [&](const MixedFlow<Dim>& flow) { return air(flow.state); };
     const double sum = sum_of_all(ranks, sum_of_magnitudes(own_flux(step.flux_through)));

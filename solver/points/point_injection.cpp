@@ -168,7 +168,7 @@ auto PointInjection<Dim>::places(const std::vector<InjectedPoint<Dim>>& points) 
     double share;
     long face;
     long number;
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;  // NOLINT: of generated code
   };
   std::vector<Key> own;
   own.reserve(points.size());

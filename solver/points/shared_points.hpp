@@ -17,7 +17,7 @@ namespace suffuse {
 struct PointOrder {
   long element;  ///< number in the whole mesh
   long place;    ///< among the points of the element, or among the injected ones
-  auto operator<=>(const PointOrder&) const = default;
+  auto operator<=>(const PointOrder&) const = default;  // NOLINT: of generated code
 };
 
 template <int Dim>
