@@ -89,7 +89,9 @@ HistoryRow DoublePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
 
 template <int Dim>
 ElementField<Dim> DoublePoint<Dim>::fitted(const FlowState<Dim>& flow) const {
-  const LiquidPoints<Dim> points = liquid_->points_around();
+  const bool is_alone = this->grid_.ranks().count() == 1;
+  const LiquidPoints<Dim> around = is_alone ? LiquidPoints<Dim>() : liquid_->points_around();
+  const LiquidPoints<Dim>& points = is_alone ? liquid_->points() : around;
   const std::vector<double> volume = liquid_->point_volume(points, flow.pressure);
   ElementField<Dim> result = concentration_fit(
       this->grid_, points, element_begins(points, this->grid_.mesh.element_count()), volume,

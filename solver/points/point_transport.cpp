@@ -71,17 +71,17 @@ std::vector<double> PointTransport<Dim>::concentration_ahead(double most) const 
 
 template <int Dim>
 std::vector<char> PointTransport<Dim>::dry_elements() const {
-  std::vector<char> result(grid_.mesh.elements.size(), 0);
-  bool any = false;
+  std::vector<char> result;
   const SoilMap<Dim>& soils = solid_.soils();
   for (const int e : grid_.own_elements()) {
     if (soils.soil_of_element(e).erosion.empty_elements != EmptyElements::dry || has_points(e)) {
       continue;
     }
+    result.resize(grid_.mesh.elements.size(), 0);
     result[e] = 1;
-    any = true;
   }
-  if (!any_of_all(grid_.ranks(), any)) return {};
+  if (!any_of_all(grid_.ranks(), !result.empty())) return {};
+  result.resize(grid_.mesh.elements.size(), 0);
   grid_.element_rows().exchange(result);
   return result;
 }

@@ -342,6 +342,8 @@ void PointsAlongFaces<Dim>::settle(const Paths& paths) {
 template <int Dim>
 void PointsAlongFaces<Dim>::book_outflow(const Paths& paths) {
   const Grid<Dim>& grid = this->grid_;
+  const bool leaves = std::ranges::any_of(paths.left_by, [](int face) { return face >= 0; });
+  if (!any_of_all(grid.ranks(), leaves)) return;
   const auto by_side = this->shared_.template sums<Dim + 1>([&](const auto& add) {
     for (int p = 0; p < points_.size(); ++p) {
       if (paths.left_by[p] < 0) continue;

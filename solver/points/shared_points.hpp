@@ -4,7 +4,10 @@
 /// step it may come into elements of others, which its rank holds too; then it is sent there. Sums
 /// over points, and the points of an element, have the order that they have in one process.
 
+#include <algorithm>
+#include <array>
 #include <compare>
+#include <limits>
 #include <vector>
 
 #include "grid/grid.hpp"
