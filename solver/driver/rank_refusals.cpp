@@ -12,9 +12,9 @@ void refuse_on_ranks(const Case<Dim>& c) {
   std::vector<InputProblem> problems;
   const auto refuse = [&](bool found, const std::string& key, const std::string& what,
                           const std::string& instead) {
-    if (found)
-      problems.push_back({c.document.locate(key), key, what + " on several ranks",
-                          instead + ", or one process: suffuse-solver", ""});
+    if (!found) return;
+    problems.push_back({c.document.locate(key), key, what + " on several ranks",
+                        instead + ", or one process: suffuse-solver", ""});
   };
   refuse(scene.flow.integration == PressureIntegration::material_point, "flow.integration",
          "\"material-point\"", "\"mixed\"");

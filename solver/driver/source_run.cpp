@@ -99,11 +99,10 @@ class Comparison {
 /// Restores a model of the case to the state of `point`, and returns this state.
 template <int Dim>
 EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, const SolverOptions& options) {
-  const Plan plan = make_plan(c, {options.threads, point.no_skip});
-  OwnPart<Dim> taken = own_part(c, options.ranks);
-  ModelOptions of_model = plan;
-  of_model.part = taken.part;
-  RunLoop<Dim> loop(taken.own ? *taken.own : c, of_model);
+  Plan plan = make_plan(c, {options.threads, point.no_skip});
+  const OwnPart<Dim> taken = own_part(c, options.ranks);
+  plan.part = taken.part;
+  RunLoop<Dim> loop(taken.own ? *taken.own : c, plan);
   RunNotes notes{.checks = {c.document.scene, plan.speed_that_drag_follows}};
   StateArchive state(std::move(point.state), loop.model().shared_state());
   state(loop, notes);

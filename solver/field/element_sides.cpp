@@ -39,8 +39,7 @@ ElementSides<Dim>::ElementSides(const Grid<Dim>& grid)
     Sides& sides = sides_[e];
     for (int k = 0; k <= Dim; ++k) {
       const int f = grid.element_face[e][k];
-      const bool is_left = grid.face_left[f] == e;
-      const int next = is_left ? grid.beyond(f) : grid.face_left[f];
+      const int next = grid.beyond(f, e);
       sides.neighbour[k] = next >= 0 ? next : outer[f] >= 0 ? -1 - outer[f] : e;
       sides.theirs[k] = {};
       if (next < 0) continue;

@@ -160,7 +160,7 @@ void FluxCorrection<Dim>::build_tree() {
     const int e = from_root_[i];
     for (const int f : grid_.element_face[e]) {
       if (in_tree[f] == 0 || f == drain_[e] || grid_.is_border(f)) continue;
-      const int next = grid_.face_left[f] == e ? grid_.beyond(f) : grid_.face_left[f];
+      const int next = grid_.beyond(f, e);
       if (!own.owns(next)) continue;
       const int partner = grid_.face_partner[f];
       drain_[next] = partner < 0 ? f : partner;
@@ -240,7 +240,7 @@ void FluxCorrection<Dim>::correct(std::vector<double>& face_flux,
     const int f = drain_[e];
     if (f < 0) continue;
     const bool is_left = grid_.face_left[f] == e;
-    const int receiver = is_left ? grid_.beyond(f) : grid_.face_left[f];
+    const int receiver = grid_.beyond(f, e);
     if (receiver >= 0 && !own.owns(receiver)) continue;  // done between ranks
     face_flux[f] -= is_left ? excess[e] : -excess[e];
     if (grid_.face_partner[f] >= 0) face_flux[grid_.face_partner[f]] = -face_flux[f];

@@ -69,6 +69,10 @@ struct Grid {
   [[nodiscard]] int beyond(int face) const {
     return face_partner[face] < 0 ? face_right[face] : face_left[face_partner[face]];
   }
+  /// Likewise, as seen from either of its elements; -1 at the fringe of a rank's part too.
+  [[nodiscard]] int beyond(int face, int from) const {
+    return face_left[face] == from ? beyond(face) : face_left[face];
+  }
   /// Joins each pair of outer faces, which are at one place, as the two sides of a passage: what
   /// leaves by one enters by the other.
   void join_faces(const std::vector<std::array<int, 2>>& pairs);

@@ -7,13 +7,6 @@ namespace {
 
 constexpr int none = -1;
 
-/// Element across a side, through a wall too; none at the border and at the fringe.
-template <int Dim>
-int next_to(const Grid<Dim>& grid, int element, int side) {
-  const int face = grid.element_face[element][side];
-  return grid.face_left[face] == element ? grid.beyond(face) : grid.face_left[face];
-}
-
 /// Takes own elements, each after those that have to come before it. Elements of a unit come one
 /// after the other.
 template <int Dim>
@@ -78,7 +71,7 @@ class Taking {
  private:
   void release_after(int e) {
     for (int k = 0; k <= Dim; ++k) {
-      const int next = next_to(grid_, e, k);
+      const int next = grid_.beyond(grid_.element_face[e][k], e);
       if (next < 0 || !grid_.element_rows().owns(next)) continue;
       const int unit = unit_[next];
       if (unit == unit_[e] || std::ranges::count(before_[next], e) == 0) continue;
@@ -213,7 +206,7 @@ class SharedSearch {
     ElementsAcross<Dim> before(upwind_.size());
     for (int e = 0; e < static_cast<int>(before.size()); ++e) {
       for (int k = 0; k <= Dim; ++k) {
-        const int other = next_to(grid_, e, k);
+        const int other = grid_.beyond(grid_.element_face[e][k], e);
         const bool comes_before = other >= 0 && place[other] >= 0 && place[other] < place[e];
         before[e][k] = comes_before ? other : none;
       }

@@ -176,12 +176,10 @@ auto PointInjection<Dim>::places(const std::vector<InjectedPoint<Dim>>& points) 
     own.push_back({point.share, grid_.face_number(point.face), point.number});
   }
   std::vector<Key> all = values_on_all(grid_.ranks(), own);
-  std::ranges::sort(all, [](const Key& a, const Key& b) { return a < b; });
+  std::ranges::sort(all);
   Places result{{}, static_cast<long>(all.size())};
   for (const Key& key : own) {
-    const auto place =
-        std::ranges::lower_bound(all, key, [](const Key& a, const Key& b) { return a < b; });
-    result.of_point.push_back(place - all.begin());
+    result.of_point.push_back(std::ranges::lower_bound(all, key) - all.begin());
   }
   return result;
 }

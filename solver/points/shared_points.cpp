@@ -14,11 +14,11 @@ SharedPoints<Dim>::SharedPoints(const Grid<Dim>& grid)
     long element;
     int rank;
   };
-  std::vector<std::vector<Request>> requests(owner_ranks());
+  std::vector<std::vector<Request>> requests(grid_.ranks().count());
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     if (!owns(e)) requests[owner_[e]].push_back({grid.element_number(e), grid.ranks().rank()});
   }
-  held_by_.resize(owner_ranks());
+  held_by_.resize(grid_.ranks().count());
   for (const Request& request : send_values(grid.ranks(), requests)) {
     held_by_[request.rank].push_back(grid.element_here(request.element));
   }
@@ -64,7 +64,7 @@ void SharedPoints<Dim>::settle(LiquidPoints<Dim>& points, std::vector<unsigned c
     sort_by_element(points, elements);
     return;
   }
-  std::vector<std::vector<Traveller>> leaving(owner_ranks());
+  std::vector<std::vector<Traveller>> leaving(grid_.ranks().count());
   std::vector<PointOrder> orders;
   for (int p = 0; p < points.size(); ++p) {
     if (keep[p] == 0) continue;
@@ -77,14 +77,21 @@ void SharedPoints<Dim>::settle(LiquidPoints<Dim>& points, std::vector<unsigned c
     }
   }
   keep_points(points, keep);
-  for (const Traveller& arriving : send_values(grid_.ranks(), leaving)) {
-    add(points, arriving);
-    orders.push_back(arriving.order);
+  std::vector<Traveller> arriving = send_values(grid_.ranks(), leaving);
+  if (!arriving.empty()) {
+    // Those that stay are in order.
+    std::ranges::sort(arriving, {}, &Traveller::order);
+    const auto stay = static_cast<std::ptrdiff_t>(orders.size());
+    for (const Traveller& traveller : arriving) {
+      add(points, traveller);
+      orders.push_back(traveller.order);
+    }
+    std::vector<int> order(orders.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::inplace_merge(order, order.begin() + stay, {}, [&](int p) { return orders[p]; });
+    rearrange(points, order);
   }
-  std::vector<int> order(orders.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](int p) { return std::pair(points.element[p], orders[p]); });
-  rearrange(points, order);
+  sort_by_element(points, elements);
 }
 
 template <int Dim>
@@ -92,7 +99,7 @@ LiquidPoints<Dim> SharedPoints<Dim>::with_copies(const LiquidPoints<Dim>& points
   LiquidPoints<Dim> result = points;
   if (grid_.ranks().count() == 1) return result;
   const std::vector<int> begins = element_begins(points, grid_.mesh.element_count());
-  std::vector<std::vector<Traveller>> copies(owner_ranks());
+  std::vector<std::vector<Traveller>> copies(grid_.ranks().count());
   for (std::size_t rank = 0; rank < copies.size(); ++rank) {
     for (const int e : held_by_[rank]) {
       for (int p = begins[e]; p < begins[e + 1]; ++p) {

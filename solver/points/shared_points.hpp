@@ -55,7 +55,7 @@ class SharedPoints {
       std::array<double, size> values;
     };
     std::vector<Term> own;
-    std::vector<std::vector<Term>> to(owner_ranks());
+    std::vector<std::vector<Term>> to(grid_.ranks().count());
     give([&](int element, int point, const std::array<double, size>& values) {
       const Term term{order_[point], grid_.element_number(element), values};
       (owns(element) ? own : to[owner_[element]]).push_back(term);
@@ -101,9 +101,6 @@ class SharedPoints {
   };
 
   [[nodiscard]] bool owns(int element) const { return grid_.element_rows().owns(element); }
-  [[nodiscard]] std::size_t owner_ranks() const {
-    return static_cast<std::size_t>(grid_.ranks().count());
-  }
   [[nodiscard]] Traveller traveller(const LiquidPoints<Dim>& points, int p,
                                     const PointOrder& order) const;
   void add(LiquidPoints<Dim>& points, const Traveller& traveller) const;

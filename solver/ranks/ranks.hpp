@@ -95,15 +95,24 @@ inline bool is_first(const Ranks& ranks, bool has) {
   return ranks.first_text(has ? own : "") == own;
 }
 
+/// The bytes of values, as ranks send them.
+template <class Value>
+std::vector<std::uint8_t> bytes_of(const std::vector<Value>& values) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(values.data());
+  return {begin, begin + values.size() * sizeof(Value)};
+}
+template <class Value>
+std::vector<Value> values_of(const std::vector<std::uint8_t>& bytes) {
+  std::vector<Value> values(bytes.size() / sizeof(Value));
+  if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
 /// The values of all ranks, in their order, on rank 0; none on the others.
 template <class Value>
 std::vector<Value> gather_values(const Ranks& ranks, const std::vector<Value>& own) {
-  static_assert(std::is_trivially_copyable_v<Value>);
-  const auto* begin = reinterpret_cast<const std::uint8_t*>(own.data());
-  const std::vector<std::uint8_t> bytes = ranks.gather({begin, begin + own.size() * sizeof(Value)});
-  std::vector<Value> all(bytes.size() / sizeof(Value));
-  if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
-  return all;
+  return values_of<Value>(ranks.gather(bytes_of(own)));
 }
 
 /// Sends values to each rank. Returns what the others sent, in the order of ranks.
@@ -111,26 +120,14 @@ template <class Value>
 std::vector<Value> send_values(const Ranks& ranks, const std::vector<std::vector<Value>>& to) {
   std::vector<std::vector<std::uint8_t>> bytes;
   bytes.reserve(to.size());
-  for (const std::vector<Value>& values : to) {
-    const auto* begin = reinterpret_cast<const std::uint8_t*>(values.data());
-    bytes.emplace_back(begin, begin + values.size() * sizeof(Value));
-  }
-  const std::vector<std::uint8_t> come = ranks.send(bytes);
-  std::vector<Value> result(come.size() / sizeof(Value));
-  if (!come.empty()) std::memcpy(result.data(), come.data(), come.size());
-  return result;
+  for (const std::vector<Value>& values : to) bytes.push_back(bytes_of(values));
+  return values_of<Value>(ranks.send(bytes));
 }
 
 /// The values of all ranks, in their order, on all of them.
 template <class Value>
 std::vector<Value> values_on_all(const Ranks& ranks, const std::vector<Value>& own) {
-  const std::vector<Value> all = gather_values(ranks, own);
-  const auto* begin = reinterpret_cast<const std::uint8_t*>(all.data());
-  const std::vector<std::uint8_t> bytes =
-      ranks.of_first({begin, begin + all.size() * sizeof(Value)});
-  std::vector<Value> result(bytes.size() / sizeof(Value));
-  if (!bytes.empty()) std::memcpy(result.data(), bytes.data(), bytes.size());
-  return result;
+  return values_of<Value>(ranks.of_first(ranks.gather(bytes_of(own))));
 }
 
 /// Throws on all ranks the error of the lowest rank that has one; `own` is null on those that have

@@ -5,6 +5,7 @@
 set -eu
 programs=$1 mpirun=$2 scene=$3
 shift 3
+. "$(dirname "$0")/expect_same.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -16,12 +17,7 @@ on_ranks() {
 }
 "$programs/suffuse-solver" case.h5 -o alone --quiet 2> alone.log
 on_ranks 4 -o shared 2> shared.log
-expect_same() {
-  (cd alone && find . -type f ! -name run.json ! -name '.*' | sort) > files
-  (cd shared && find . -type f ! -name run.json ! -name '.*' | sort) | diff files -
-  while read -r file; do cmp "alone/$file" "shared/$file"; done < files
-}
-expect_same
+expect_same alone shared
 grep -q '"resumed_at": null' shared/run.json
 # Without its last snapshots a run goes on from the one before.
 forget() {
@@ -33,15 +29,15 @@ goes_on_from() {
 forget 3 4 5
 on_ranks 2 -o shared --resume 2> shared.log
 goes_on_from 0.04
-expect_same
+expect_same alone shared
 forget 4 5
 "$programs/suffuse-solver" case.h5 -o shared --resume --quiet 2> shared.log
 goes_on_from 0.06
-expect_same
+expect_same alone shared
 forget 2 3 4 5
 on_ranks 3 -o shared --resume 2> shared.log
 goes_on_from 0.02
-expect_same
+expect_same alone shared
 # A complete run is left alone.
 "$mpirun" -q --oversubscribe -n 2 "$programs/suffuse-solver-mpi" case.h5 -o shared --resume 2> shared.log
 grep -q "shared is complete: nothing to resume" shared.log
