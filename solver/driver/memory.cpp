@@ -27,6 +27,9 @@ double peak_memory() {
 void give_memory_back() {
 #ifdef __GLIBC__
   constexpr int large = 1 << 20;
+  // Open MPI forbids blocks of their own, which are all that can be returned at once.
+  constexpr int most_blocks = 65536;
+  mallopt(M_MMAP_MAX, most_blocks);
   mallopt(M_MMAP_THRESHOLD, large);
   mallopt(M_TRIM_THRESHOLD, 4 * large);
 #endif
