@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "common/command_line.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/memory.hpp"
+#include "driver/rank_refusals.hpp"
 #include "driver/run.hpp"
 #include "driver/source_run.hpp"
 #include "ranks/launch_ranks.hpp"
@@ -19,6 +21,7 @@
 #include "tools/element_test.hpp"
 #include "tools/estimate.hpp"
 #include "tools/mesh_again.hpp"
+#include "tools/rank_trial.hpp"
 #include "tools/strength_table.hpp"
 
 namespace {
@@ -32,7 +35,9 @@ struct Arguments {
   std::string folder;
   suffuse::SolverOptions solver;
   int ranks = 1;
+  std::vector<std::string> without_ranks;  ///< all arguments but --ranks, for other programs
   bool explain = false;
+  std::optional<long> trial;
   suffuse::RunOptions run;
   suffuse::ElementTestOptions element;
   suffuse::SizesOptions sizes;
@@ -51,8 +56,10 @@ std::string default_folder(const std::string& case_path) {
 
 /// Prints the plan of a run and its estimated cost. Leaves no files.
 template <int Dim>
-int explain(const suffuse::Case<Dim>& c, const suffuse::Plan& plan, int threads) {
+int explain(const suffuse::Case<Dim>& c, const suffuse::Plan& plan, const Arguments& arguments) {
   using namespace suffuse;
+  if (arguments.ranks > 1) refuse_on_ranks(c);
+  const int threads = arguments.solver.threads;
   const std::optional<SourceRun<Dim>> earlier = read_source_run(c, {.threads = threads});
   if (earlier) {
     for (const std::string& sentence : earlier->sentences) std::cout << sentence << '\n';
@@ -65,6 +72,30 @@ int explain(const suffuse::Case<Dim>& c, const suffuse::Plan& plan, int threads)
        sentences(estimate_run(c, plan, {}, earlier ? &earlier->state : nullptr), threads)) {
     std::cout << sentence << '\n';
   }
+  if (arguments.ranks > 1) {
+    std::cout << std::flush;
+    for (const std::string& line : compare_ranks(arguments.ranks, arguments.without_ranks)) {
+      std::cout << line << '\n';
+    }
+  }
+  return static_cast<int>(ExitCode::done);
+}
+
+/// Makes the first steps of a run, and says what they cost. Leaves no files.
+template <int Dim>
+int try_first_steps(const suffuse::Case<Dim>& c, const suffuse::Plan& plan,
+                    const Arguments& arguments) {
+  using namespace suffuse;
+  const Ranks& ranks = *arguments.solver.ranks;
+  const bool speaks = ranks.rank() == 0;
+  if (speaks && !arguments.trial) {
+    for (const std::string& sentence : plan.sentences) std::cout << sentence << '\n';
+    for (const std::string& warning : plan.warnings) std::cout << "warning: " << warning << '\n';
+    std::cout << std::flush;
+  }
+  catch_interrupts();
+  const RankTrial trial = try_ranks(c, plan, arguments.solver, arguments.trial.value_or(0));
+  if (speaks) std::cout << sentence(trial) << '\n' << std::flush;
   return static_cast<int>(ExitCode::done);
 }
 
@@ -83,7 +114,10 @@ int solve(const Arguments& arguments) {
   using namespace suffuse;
   Case<Dim> c = read_case<Dim>(arguments.case_path);
   const Plan plan = make_plan(c, arguments.solver);
-  if (arguments.explain) return explain(c, plan, arguments.solver.threads);
+  if (arguments.trial || (arguments.explain && arguments.solver.ranks->count() > 1)) {
+    return try_first_steps(c, plan, arguments);
+  }
+  if (arguments.explain) return explain(c, plan, arguments);
   const std::string folder =
       arguments.folder.empty() ? default_folder(arguments.case_path) : arguments.folder;
   const int code =
@@ -206,7 +240,7 @@ int find_strength(Arguments& arguments) {
 /// Runs are shared by ranks, other modes are not.
 void refuse_modes_on_ranks(const CLI::App& app, int ranks) {
   if (ranks == 1) return;
-  for (const char* mode : {"--element-test", "--strength-reduction", "--sizes", "--explain"}) {
+  for (const char* mode : {"--element-test", "--strength-reduction", "--sizes"}) {
     if (app.count(mode) == 0) continue;
     throw suffuse::InputError(suffuse::InputProblem{"", mode, std::to_string(ranks) + " ranks",
                                                     "one process: suffuse-solver", ""});
@@ -250,6 +284,7 @@ int run(int argc, char** argv, std::shared_ptr<const Ranks> ranks) {
   }
   app.add_flag("--explain", arguments.explain,
                "Print what would run, what is skipped and what it would take, and stop");
+  app.add_option("--trial", arguments.trial)->group("");  // by which --explain tries ranks
   app.add_flag("--no-skip", arguments.solver.no_skip, "Run every pass, needed or not");
   CLI::Option* resume = app.add_flag(
       "--resume", arguments.run.resume,
@@ -269,7 +304,8 @@ int run(int argc, char** argv, std::shared_ptr<const Ranks> ranks) {
   if (const auto code = suffuse::parse_command_line(app, argc, argv)) return *code;
   refuse_modes_on_ranks(app, std::max(ranks->count(), arguments.ranks));
   if (arguments.ranks > 1) {
-    return suffuse::launch_ranks(arguments.ranks, without_option("--ranks", argc, argv));
+    arguments.without_ranks = without_option("--ranks", argc, argv);
+    if (!arguments.explain) return suffuse::launch_ranks(arguments.ranks, arguments.without_ranks);
   }
   arguments.solver.ranks = std::move(ranks);
   if (arguments.strength_reduction) return find_strength(arguments);

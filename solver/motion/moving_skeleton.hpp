@@ -13,7 +13,6 @@
 #include "motion/motion_step.hpp"
 #include "motion/soil_inertia.hpp"
 #include "motion/solid_flux.hpp"
-#include "ranks/exact_sum.hpp"
 #include "solid/eroding_skeleton.hpp"
 
 namespace suffuse {

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -37,14 +38,41 @@ fs::path shared_solver() {
                   "Suffuse where PETSc and MPI are installed (docs/ranks.md)");
 }
 
+/// Where what the processes print can be read, and where it is written; -1: nowhere else.
+struct Pipe {
+  int read = -1;
+  int write = -1;
+};
+
+Pipe open_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw FileError(std::string("mpirun: ") + std::strerror(errno));
+  }
+  return {ends[0], ends[1]};
+}
+
+/// All that was written; the processes have ended. A page fits into a pipe.
+std::string printed_text(const Pipe& pipe) {
+  ::close(pipe.write);
+  std::string text;
+  std::array<char, 4096> page{};
+  for (ssize_t bytes = 0; (bytes = ::read(pipe.read, page.data(), page.size())) > 0;) {
+    text.append(page.data(), static_cast<std::size_t>(bytes));
+  }
+  ::close(pipe.read);
+  return text;
+}
+
 /// Becomes mpirun; does not return.
-[[noreturn]] void become(std::vector<std::string> words) {
+[[noreturn]] void become(std::vector<std::string> words, const Pipe& output) {
   // A terminal's Ctrl-C goes to all of its group: mpirun would kill its processes.
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   std::signal(SIGUSR1, SIG_IGN);  // until mpirun listens
   const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (nothing >= 0) ::dup2(nothing, STDIN_FILENO);
+  if (output.write >= 0) ::dup2(output.write, STDOUT_FILENO);
   // Whoever starts a run as root means it.
   if (::geteuid() == 0) {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
@@ -75,7 +103,7 @@ int status_of(pid_t process) {
 
 }  // namespace
 
-int launch_ranks(int ranks, const std::vector<std::string>& arguments) {
+int launch_ranks(int ranks, const std::vector<std::string>& arguments, std::string* output) {
   // Ranks that are bound to cores wait for whatever else runs there.
   std::vector<std::string> words{"mpirun", "-q", "--bind-to", "none", "-n", std::to_string(ranks)};
   if (ranks > static_cast<int>(std::thread::hardware_concurrency())) {
@@ -88,10 +116,12 @@ int launch_ranks(int ranks, const std::vector<std::string>& arguments) {
     // A program started by nohup must continue to ignore SIGHUP.
     if (std::signal(signal, ask_to_stop) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
+  const Pipe printed = output == nullptr ? Pipe{} : open_pipe();
   const pid_t process = ::fork();
   if (process < 0) throw FileError(std::string("mpirun: ") + std::strerror(errno));
-  if (process == 0) become(std::move(words));
+  if (process == 0) become(std::move(words), printed);
   const int code = status_of(process);
+  if (output != nullptr) *output = printed_text(printed);
   if (code == not_started) {
     throw FileError("--ranks: mpirun cannot be started; install Open MPI (openmpi-bin)");
   }

@@ -1,4 +1,5 @@
 #include "tools/estimate.hpp"
+#include "tools/rank_trial.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -330,4 +331,25 @@ TEST(Explain, PrintsTheEstimateAndLeavesNothingBehind) {
 }
 
 }  // namespace estimate_test
+TEST(RankTrial, IsReadFromItsLine) {
+  const RankTrial trial{.ranks = 4, .steps = 17, .seconds = 0.125, .memory = 3e9, .largest = 1e9};
+  const RankTrial read = rank_trial_of("run: flow\n" + sentence(trial) + "\n");
+  EXPECT_EQ(read.ranks, 4);
+  EXPECT_EQ(read.steps, 17);
+  EXPECT_DOUBLE_EQ(read.seconds, 0.125);
+  EXPECT_DOUBLE_EQ(read.memory, 3e9);
+  EXPECT_DOUBLE_EQ(read.largest, 1e9);
+  EXPECT_EQ(rank_trial_of(sentence({.ranks = 1, .steps = 1})).steps, 1);
+  EXPECT_THROW(rank_trial_of("nothing"), NumericalError);
+}
+
+TEST(RankTrial, RecommendsTheFewestThatAreNearlyAsFastAsAny) {
+  const auto trial = [](int ranks, double seconds) {
+    return RankTrial{.ranks = ranks, .steps = 5, .seconds = seconds};
+  };
+  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.55), trial(4, 0.52)}), 2);
+  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.95), trial(4, 1.5)}), 1);
+  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.5), trial(4, 0.25)}), 4);
+}
+
 }  // namespace suffuse
