@@ -14,7 +14,6 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
   CoupledStep<Dim> step{flow_.propose(ahead), std::nullopt, rise_};
   for (;;) {
     ++flow_.timing().calls;
-    failure_.refuse_creep(interval.start);
     flow_.set_forcing(ahead, step.flow);
     const double end = step.flow.start + step.flow.dt;
     const std::optional<Unsolved> why =
@@ -40,8 +39,7 @@ template <int Dim>
 FlowProgress FlowOfMovingSolid<Dim>::commit(CoupledStep<Dim> step) {
   const double duration = step.flow.dt;
   if (failure_.has_inertia()) {
-    failure_.finish_motion(step.motion->forcing.end, duration,
-                           solid_.take_velocities(*step.motion));
+    failure_.finish_motion(duration, solid_.take_velocities(*step.motion));
   }
   const auto [motion, kinetics] = solid_.commit(*std::move(step.motion));
   move_liquid_along(motion, step.flow);

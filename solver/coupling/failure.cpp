@@ -13,7 +13,7 @@ constexpr double short_step = 1e-2;
 template <int Dim>
 void Failure<Dim>::start_inertia(double time) {
   solid_.start_inertia();
-  repeated_.fails(time, solid_.places(), solid_.mean_size());
+  repeated_.fails(solid_.places(), solid_.mean_size());
   time_ = time;
   rested_ = 0.0;
 }
@@ -51,17 +51,9 @@ void Failure<Dim>::finish_step(double time, double next_step, const SoilKinetics
 }
 
 template <int Dim>
-void Failure<Dim>::finish_motion(double time, double duration, const SoilKinetics& soil) {
+void Failure<Dim>::finish_motion(double duration, const SoilKinetics& soil) {
   rested_ = soil.is_rest() ? rested_ + duration : 0.0;
-  const double fall = soil.soil.time_of_fall();
-  if (rested_ <= fall) return;
-  solid_.end_inertia();
-  repeated_.rests(time, fall);
-}
-
-template <int Dim>
-void Failure<Dim>::refuse_creep(double time) const {
-  if (has_inertia() && repeated_.is_creep()) repeated_.refuse_creep(time, solid_.places());
+  if (rested_ > soil.soil.time_of_fall()) solid_.end_inertia(repeated_.held_share());
 }
 
 template <int Dim>

@@ -45,12 +45,9 @@ class Failure {
 
   // From inertia to equilibrium, or to the end of the run.
 
-  /// Call at the end `time` of a step with inertia, of `duration`; both in s. Ends the inertia of
-  /// soil that has been at rest for the time of a fall through its height.
-  void finish_motion(double time, double duration, const SoilKinetics& soil);
-  /// Throws EquilibriumLost if the soil loses its equilibrium repeatedly without moving far.
-  /// \param time  at the start of a step, s
-  void refuse_creep(double time) const;
+  /// Call at the end of a step with inertia, of `duration`, s. Ends the inertia of soil that has
+  /// been at rest for the time of a fall through its height.
+  void finish_motion(double duration, const SoilKinetics& soil);
 
   void archive(auto& archive) { archive(repeated_, time_, rested_, long_steps_); }
 

@@ -82,6 +82,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   forcing.mean_storage = held_by_soil(soils, air, forcing, pressure, dt);
   given.liquid_mass = liquid_mass(grid_, at_start, air);
   step.motion = solid_.start_step(std::move(given), std::move(step.motion));
+  if (solid_.rests() && solve_at_rest(scheme, start, step)) return std::nullopt;
   const auto on_solid = [&](const Eigen::VectorXd& rise) {
     return pressure_on_solid(grid_, soils, risen(pressure, rise), at_start.porosity, air);
   };
@@ -129,6 +130,23 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
                   element_text(grid_, worst_element)};
 } catch (const NotConverged& error) {
   return Unsolved{error.what()};
+}
+
+template <int Dim>
+bool FlowAndMotion<Dim>::solve_at_rest(ImplicitMixed<Dim>& scheme, const FlowStart<Dim>& start,
+                                       CoupledStep<Dim>& step) const {
+  ++step.iterations;
+  const FlowForcing<Dim>& forcing = step.flow.forcing.back();
+  MixedStep<Dim> found = scheme.step(start.state, step.flow.dt, {&forcing});
+  const std::vector<double> pressure = element_pressure(grid_, found.end.face_pressure, threads_);
+  if (!solid_.stays(*step.motion,
+                    pressure_on_solid(grid_, scheme.soils(), pressure,
+                                      forcing.coefficients.porosity, start.state.air))) {
+    return false;
+  }
+  step.rise = {};
+  step.flow.found = std::move(found);
+  return true;
 }
 
 template <int Dim>

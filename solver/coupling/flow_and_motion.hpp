@@ -52,6 +52,10 @@ class FlowAndMotion {
                                 MotionForcing forcing, CoupledStep<Dim>& step) const;
 
  private:
+  /// Finds the step of soil that has come to rest: the flow through soil that does not move.
+  /// Returns false if the soil does not stay where it is under the pressures at the end.
+  bool solve_at_rest(ImplicitMixed<Dim>& scheme, const FlowStart<Dim>& start,
+                     CoupledStep<Dim>& step) const;
   /// Additional storage of the elements in the iteration, from the soil's compressibility, m3/Pa.
   [[nodiscard]] std::vector<double> held_by_soil(const FlowSoils<Dim>& soils,
                                                  const ElementField<Dim>& air,

@@ -1,6 +1,5 @@
 #include "equilibrium/crossing_forces.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -2,6 +2,8 @@
 
 /// Forces out of balance because points have changed elements.
 
+#include <algorithm>
+
 #include "equilibrium/equilibrium.hpp"
 
 namespace suffuse {
@@ -21,6 +23,8 @@ class CrossingForces {
   /// \param diffusivity  c_v = k E_oed/gamma_w per element, m2/s; not used where there is no soil
   void find(const Grid<Dim>& grid, const PointsByElement& sorted, const Equilibrium<Dim>& moved,
             const NodeVectors<Dim>& loads, const std::vector<double>& diffusivity);
+  /// Keeps the forces as they are: they do not fade.
+  void keep() { std::ranges::fill(fading_, 0.0); }
   /// Adds the forces that remain after `duration`, s.
   void add(double duration, NodeVectors<Dim>& loads) const;
 

@@ -52,6 +52,16 @@ bool StepEquilibrium<Dim>::solve(const NodeVectors<Dim>& loads, std::vector<doub
 }
 
 template <int Dim>
+double StepEquilibrium<Dim>::stay(const NodeVectors<Dim>& loads, std::vector<double> pressure) {
+  equilibrium_.set_pressure(std::move(pressure));
+  displacement_.assign(loads.size(), Vector<Dim>::Zero());
+  equilibrium_.displace(displacement_, false);
+  iterations_ = 0;
+  const DisplacementUnknowns<Dim>& unknowns = equilibrium_.unknowns();
+  return (unknowns.components(loads) - unknowns.components(equilibrium_.forces())).norm();
+}
+
+template <int Dim>
 bool StepEquilibrium<Dim>::settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
                                   const SettlingLimits& limits) {
   equilibrium_.set_pressure(std::move(pressure));

@@ -31,6 +31,8 @@ class StepEquilibrium {
   /// cohesion.
   bool settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
               const SettlingLimits& limits);
+  /// Leaves the soil where it is. Returns the norm of the forces out of balance then, N.
+  double stay(const NodeVectors<Dim>& loads, std::vector<double> pressure);
   /// Sets inertia over a step of `duration`, s; the initial guess keeps the nodes' velocities.
   void set_inertia(const NodalMotion<Dim>& nodes, double duration);
   /// Returns to the start of the step after the stress of the points has changed.

@@ -16,6 +16,10 @@
 namespace suffuse {
 namespace {
 
+/// Share of an element's pores by which its water may fall below nothing where it holds air:
+/// Newton's method of the flow leaves so much, and the next step flows by the air.
+constexpr double most_missing = 1e-4;
+
 /// Adds sources that let out `volume` per element, m3, over `dt`.
 void let_out(const std::vector<double>& volume, double dt, std::vector<double>& source) {
   source.resize(volume.size(), 0.0);
@@ -89,11 +93,13 @@ Mismatch mismatch_of(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coeffic
     for (std::size_t e = 0; e < water_mass.size(); ++e) {
       const double fills =
           water_mass[e] / (liquid.density * density_ratio(pressure[e], liquid.bulk_modulus));
-      if (!(fills > 0.0)) refuse_dry(static_cast<int>(e));
+      const double pores = coefficients.porosity[e] * grid.volume[e];
+      const double least = fit.is_needed ? 0.0 : -most_missing * pores;
+      if (!(fills > least)) refuse_dry(static_cast<int>(e));
       result.volume[e] = fills - coefficients.water_volume[e];
       // Relative to the pores: where fines leave hardly any room for water, an error relative to
       // the water has no meaning.
-      const double error = std::abs(result.volume[e]) / (coefficients.porosity[e] * grid.volume[e]);
+      const double error = std::abs(result.volume[e]) / pores;
       if (error > result.of_pores) {
         result.of_pores = error;
         worst = e;

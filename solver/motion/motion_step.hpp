@@ -56,10 +56,12 @@ struct MotionStep {
   std::unique_ptr<StepEquilibrium<Dim>> equilibrium;  ///< holds the displacement found last
   std::unique_ptr<FaceBubbles<Dim>> bubbles;
   bool has_inertia = false;
+  bool stays = false;            ///< the soil stays where it is
   std::vector<double> mass;      ///< that has inertia, kg per point; empty without inertia
   NodalMotion<Dim> nodes;        ///< at the start of the step; empty without inertia
   std::vector<double> pressure;  ///< of the last solution, per element, Pa
-  NodeVectors<Dim> loads;        ///< of the last solution, N
+  NodeVectors<Dim> loads;        ///< of the last solution, with crossing forces, N
+  double load_norm = 0.0;        ///< of the loads without crossing forces, N
   SolidMotion motion;            ///< the last solution
   long iterations = 0;           ///< of Newton's method, in all attempts
 };

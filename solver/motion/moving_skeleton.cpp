@@ -268,15 +268,30 @@ void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
 }
 
 template <int Dim>
+void MovingSkeleton<Dim>::load(MotionStep<Dim>& step, const std::vector<double>& pressure) const {
+  step.pressure = pressure;
+  step.loads = loads(step.forcing, solid_masses(step.loss), pressure, step.equilibrium->sorted(),
+                     step.equilibrium->classes());
+  step.load_norm = norm<Dim>(step.loads);
+  if (!step.has_inertia) crossing_forces_.add(step.forcing.duration, step.loads);
+  step.motion = {};
+}
+
+template <int Dim>
+bool MovingSkeleton<Dim>::stays(MotionStep<Dim>& step, const std::vector<double>& pressure) const {
+  load(step, pressure);
+  step.motion.face_volume.assign(this->grid_.face_count(), 0.0);
+  step.stays = step.equilibrium->stay(step.loads, pressure) <= held_share_ * step.load_norm;
+  return step.stays;
+}
+
+template <int Dim>
 const SolidMotion& MovingSkeleton<Dim>::solve(MotionStep<Dim>& step,
                                               const std::vector<double>& pressure,
                                               std::vector<double> stiffness) const {
   StepEquilibrium<Dim>& equilibrium = *step.equilibrium;
-  step.pressure = pressure;
-  step.loads = loads(step.forcing, solid_masses(step.loss), pressure, equilibrium.sorted(),
-                     equilibrium.classes());
-  if (!step.has_inertia) crossing_forces_.add(step.forcing.duration, step.loads);
-  SolidMotion& motion = step.motion = {};
+  load(step, pressure);
+  SolidMotion& motion = step.motion;
   motion.converged = equilibrium.solve(step.loads, pressure, std::move(stiffness));
   if (!motion.converged) motion.worst_node = equilibrium.worst_node();
   motion.iterations = equilibrium.iterations();
@@ -305,7 +320,9 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
   SoilKinetics found;
   if (!inertia_.acts()) {
     found = kinetics(step, place);
-    find_crossing_forces(step);
+    if (!step.stays) find_crossing_forces(step);
+    if (step.has_inertia) crossing_forces_.keep();  // the soil has come to rest
+    if (!step.has_inertia && !step.stays) held_share_ = 0.0;
   }
   book_regions(element);
   SolidMotion motion = std::move(step.motion);
@@ -375,8 +392,8 @@ template <int Dim>
 void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
-          boundary_loads_, crossing_forces_, inertia_, solid_, region_gain_, pressure_, filling_,
-          correction_, newton_iterations_);
+          boundary_loads_, crossing_forces_, inertia_, held_share_, solid_, region_gain_, pressure_,
+          filling_, correction_, newton_iterations_);
   if (!archive.restores()) return;
   show_points();
 }

@@ -54,6 +54,9 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// relative growth of the soil.
   const SolidMotion& solve(MotionStep<Dim>& step, const std::vector<double>& pressure,
                            std::vector<double> stiffness = {}) const;
+  /// Whether soil that rests stays where it is under these pore pressures; the motion of the step
+  /// is none then.
+  bool stays(MotionStep<Dim>& step, const std::vector<double>& pressure) const;
   /// Throws EquilibriumLost if the step leaves soil without pores.
   void check_pores(const MotionStep<Dim>& step) const;
   /// Sets the velocities of points to those of the step, which has inertia; call before `commit`.
@@ -63,10 +66,19 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   std::pair<SolidMotion, SoilKinetics> commit(MotionStep<Dim> step);
 
   /// Starts the inertia of the soil, which is at rest.
-  void start_inertia() { inertia_.begin(points_.size()); }
-  /// Ends the inertia of the soil.
-  void end_inertia() { inertia_ = {}; }
+  void start_inertia() {
+    inertia_.begin(points_.size());
+    held_share_ = 0.0;
+  }
+  /// Ends the inertia of the soil. From the end of the step on it rests: it stays where it is until
+  /// the forces out of balance have changed by this share of the loads.
+  void end_inertia(double held_share) {
+    inertia_ = {};
+    held_share_ = held_share;
+  }
   [[nodiscard]] bool has_inertia() const override { return inertia_.acts(); }
+  /// Whether the soil has come to rest after it had inertia, and has not moved since.
+  [[nodiscard]] bool rests() const { return held_share_ > 0.0; }
 
   /// Volume by which each element's soil shrinks in a step of `duration`, s, per Pa of lower pore
   /// pressure, m3/Pa: a measure of the coupling of pressure and motion. V_e / E_oed, as without
@@ -124,6 +136,8 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
                                        const ElementClasses& classes) const;
   /// Mass of the points' solid after this loss, kg.
   [[nodiscard]] std::vector<double> solid_masses(const std::vector<double>& loss) const;
+  /// Sets the pressures and loads of a step, before its solution.
+  void load(MotionStep<Dim>& step, const std::vector<double>& pressure) const;
   /// Makes the equilibrium of a step, with inertia if the soil has it.
   void prepare(MotionStep<Dim>& step) const;
   /// Mass that has inertia: solid after the loss of the step, and the liquid in its pores, kg per
@@ -160,6 +174,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   BoundaryLoads<Dim> boundary_loads_;
   CrossingForces<Dim> crossing_forces_;  ///< without inertia
   SoilInertia<Dim> inertia_;
+  double held_share_ = 0.0;  ///< of the loads, while the soil rests after its inertia; 0: it moves
   std::vector<double> solid_;          ///< per element, m3
   std::vector<ExactSum> region_gain_;  ///< per region of the mesh, m3
   std::vector<double> pressure_;       ///< of the pores at the last equilibrium, per element, Pa
