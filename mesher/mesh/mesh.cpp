@@ -29,6 +29,13 @@ double element_volume(const Mesh<Dim>& mesh, int element) {
 }
 
 template <int Dim>
+double mean_size(const Mesh<Dim>& mesh) {
+  double volume = 0.0;
+  for (int e = 0; e < mesh.element_count(); ++e) volume += element_volume(mesh, e);
+  return std::pow(volume / mesh.element_count(), 1.0 / Dim);
+}
+
+template <int Dim>
 Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element) {
   Vector<Dim> sum = Vector<Dim>::Zero();
   for (int node : mesh.elements[element]) sum += mesh.nodes[node];
@@ -107,6 +114,8 @@ double smallest_angle(const Mesh<3>& mesh) {
 
 template double element_volume<2>(const Mesh<2>&, int);
 template double element_volume<3>(const Mesh<3>&, int);
+template double mean_size(const Mesh<2>&);
+template double mean_size(const Mesh<3>&);
 template Vector<2> element_centroid<2>(const Mesh<2>&, int);
 template Vector<3> element_centroid<3>(const Mesh<3>&, int);
 template std::array<double, 3> barycentric<2>(const Mesh<2>&, int, const Vector<2>&);

@@ -36,6 +36,9 @@ struct Mesh {
 /// Signed area (2D, m2, which is m3 per metre of thickness) or volume (3D, m3) of an element.
 template <int Dim>
 double element_volume(const Mesh<Dim>& mesh, int element);
+/// Mean size of the elements: that of a square or cube of their mean volume, m.
+template <int Dim>
+double mean_size(const Mesh<Dim>& mesh);
 
 template <int Dim>
 Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element);

@@ -13,7 +13,7 @@ constexpr double short_step = 1e-2;
 template <int Dim>
 void Failure<Dim>::start_inertia(double time) {
   solid_.start_inertia();
-  repeated_.fails(solid_.places(), solid_.mean_size());
+  repeated_.fails(solid_.places(), mean_size(grid_.mesh));
   time_ = time;
   rested_ = 0.0;
 }

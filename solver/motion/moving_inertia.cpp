@@ -1,7 +1,6 @@
 /// The inertia of a moving skeleton: masses and velocities.
 
 #include <cmath>
-#include <numeric>
 
 #include "motion/held_by_inertia.hpp"
 #include "motion/moving_skeleton.hpp"
@@ -72,17 +71,9 @@ std::vector<double> MovingSkeleton<Dim>::moved_masses(const MotionStep<Dim>& ste
 }
 
 template <int Dim>
-double MovingSkeleton<Dim>::mean_size() const {
-  const std::vector<double>& volume = this->grid_.volume;
-  const double mean =
-      std::accumulate(volume.begin(), volume.end(), 0.0) / this->grid_.mesh.element_count();
-  return std::pow(mean, 1.0 / Dim);
-}
-
-template <int Dim>
 double MovingSkeleton<Dim>::time_of_fall() const {
   const double g = acceleration(this->soils().scene().gravity);
-  return g > 0.0 ? std::sqrt(2.0 * mean_size() / g) : 0.0;
+  return g > 0.0 ? std::sqrt(2.0 * mean_size(this->grid_.mesh) / g) : 0.0;
 }
 
 template <int Dim>

@@ -73,8 +73,10 @@ std::vector<double> MovingSkeleton<Dim>::element_porosity() const {
 // ------------------------------------------------------------------------------ exchange of fines
 
 template <int Dim>
-void MovingSkeleton<Dim>::add_to_elements(const std::vector<double>& gain) {
-  for (std::size_t p = 0; p < gain.size(); ++p) solid_[points_.element[p]] += gain[p];
+void MovingSkeleton<Dim>::add_to_elements(const std::vector<double>& volume, double factor) {
+  for (std::size_t p = 0; p < volume.size(); ++p) {
+    solid_[points_.element[p]] += factor * volume[p];
+  }
 }
 
 template <int Dim>
@@ -82,18 +84,14 @@ void MovingSkeleton<Dim>::exchange(double from, double to, const PointFlows& flo
                                    const std::vector<char>& excluded,
                                    std::vector<double>& exchange) {
   ErodingSkeleton<Dim>::exchange(from, to, flows, excluded, exchange);
-  std::vector<double> gain = exchange;
-  for (double& v : gain) v = -v;
-  add_to_elements(gain);
+  add_to_elements(exchange, -1.0);
 }
 
 template <int Dim>
 void MovingSkeleton<Dim>::apply(const std::vector<Exchange>& change,
                                 std::vector<double>& exchange) {
   ErodingSkeleton<Dim>::apply(change, exchange);
-  std::vector<double> gain = exchange;
-  for (double& v : gain) v = -v;
-  add_to_elements(gain);
+  add_to_elements(exchange, -1.0);
 }
 
 template <int Dim>
@@ -324,7 +322,7 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
     if (step.has_inertia) crossing_forces_.keep();  // the soil has come to rest
     if (!step.has_inertia && !step.stays) held_share_ = 0.0;
   }
-  book_regions(element);
+  region_gain_.book(this->grid_.mesh.element_region, element, points_.element, solid_volumes());
   SolidMotion motion = std::move(step.motion);
   carry_solid(before, motion);
   correction_ = motion.solid_correction;
@@ -367,25 +365,6 @@ void MovingSkeleton<Dim>::carry_solid(const std::vector<double>& smooth_before,
   motion.solid_face_volume = solid_flux_.carried(motion.face_volume, solid_);
   motion.solid_correction = solid_flux_.balance(motion.solid_gain, motion.solid_face_volume);
   for (std::size_t e = 0; e < solid_.size(); ++e) solid_[e] += motion.solid_gain[e];
-}
-
-template <int Dim>
-void MovingSkeleton<Dim>::book_regions(const std::vector<int>& element) {
-  const std::vector<int>& region = this->grid_.mesh.element_region;
-  for (int p = 0; p < points_.size(); ++p) {
-    const int from = region[element[p]];
-    const int to = region[points_.element[p]];
-    if (from == to) continue;
-    region_gain_[from].add(-this->state_.solid_volume(p));
-    region_gain_[to].add(this->state_.solid_volume(p));
-  }
-}
-
-template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::region_gain() const {
-  std::vector<double> result;
-  for (const ExactSum& sum : region_gain_) result.push_back(sum.value());
-  return result;
 }
 
 template <int Dim>

@@ -11,6 +11,7 @@
 #include "equilibrium/crossing_forces.hpp"
 #include "equilibrium/start_stress.hpp"
 #include "motion/motion_step.hpp"
+#include "motion/region_gains.hpp"
 #include "motion/soil_inertia.hpp"
 #include "motion/solid_flux.hpp"
 #include "solid/eroding_skeleton.hpp"
@@ -92,8 +93,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] double longest_step() const { return inertia_.longest_step(); }
   /// Time in which soil falls through an element of mean size, s; 0 without gravity.
   [[nodiscard]] double time_of_fall() const;
-  /// Mean size of the elements, m.
-  [[nodiscard]] double mean_size() const;
   /// Largest modulus of soil that cannot move sideways, Pa.
   [[nodiscard]] double stiffness() const;
   /// Largest change of tractions in the run, from those at the start, Pa.
@@ -104,7 +103,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> load_breakpoints() const override {
     return boundary_loads_.breakpoints();
   }
-  [[nodiscard]] std::vector<double> region_gain() const override;
+  [[nodiscard]] std::vector<double> region_gain() const override { return region_gain_.values(); }
   [[nodiscard]] const std::vector<SoilFilling>& filling() const override { return filling_; }
   void describe(HistoryRow& row) const override;
   void describe(Snapshot& snapshot) const override;
@@ -155,13 +154,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void sort_points(double time);
   void show_points();
   void find_filling();
-  /// Adds the gains of the points, m3 per point, to their elements.
-  void add_to_elements(const std::vector<double>& gain);
+  /// Adds the gains of the points, m3 per point, times a factor to their elements.
+  void add_to_elements(const std::vector<double>& volume, double factor = 1.0);
   /// Call after the points have moved and before they are sorted.
   void find_crossing_forces(const MotionStep<Dim>& step);
   void carry_solid(const std::vector<double>& smooth_before, SolidMotion& motion);
-  /// Books the solid of points that have entered another region, from `element` per point.
-  void book_regions(const std::vector<int>& element);
 
   SoilMap<Dim>& movable_soils_;
   bool has_free_water_;
@@ -175,10 +172,10 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   CrossingForces<Dim> crossing_forces_;  ///< without inertia
   SoilInertia<Dim> inertia_;
   double held_share_ = 0.0;  ///< of the loads, while the soil rests after its inertia; 0: it moves
-  std::vector<double> solid_;          ///< per element, m3
-  std::vector<ExactSum> region_gain_;  ///< per region of the mesh, m3
-  std::vector<double> pressure_;       ///< of the pores at the last equilibrium, per element, Pa
-  std::vector<SoilFilling> filling_;   ///< after the last motion
+  std::vector<double> solid_;  ///< per element, m3
+  RegionGains region_gain_;
+  std::vector<double> pressure_;      ///< of the pores at the last equilibrium, per element, Pa
+  std::vector<SoilFilling> filling_;  ///< after the last motion
   SolidFlux<Dim> solid_flux_;
   double correction_ = 0.0;  ///< see HistoryRow::solid_correction
   long newton_iterations_ = 0;

@@ -25,13 +25,6 @@ constexpr double still_share = 1e-15;
 constexpr double fringe = 0.25;
 constexpr double free_air_ratio = 100.0;
 
-template <int Dim>
-double mean_size(const Mesh<Dim>& mesh) {
-  double volume = 0.0;
-  for (int e = 0; e < mesh.element_count(); ++e) volume += element_volume(mesh, e);
-  return std::pow(volume / mesh.element_count(), 1.0 / Dim);
-}
-
 /// Of all soils in their best direction, m/s.
 double largest_conductivity(const Scene& scene) {
   double largest = 0.0;

@@ -92,7 +92,7 @@ TEST(Failure, ShortStepsOrASlideStartInertiaAfterLongOnes) {
   for (const bool slides : {false, true}) {
     Soil soil(true);
     const double fall = soil.solid.time_of_fall();
-    EXPECT_NEAR(fall, std::sqrt(2.0 * soil.solid.mean_size() / g), 1e-15);
+    EXPECT_NEAR(fall, std::sqrt(2.0 * mean_size(soil.grid.mesh) / g), 1e-15);
     const auto fails = [&](double time) {
       soil.failure.finish_step(time, (slides ? 1.0 : 0.9e-2) * fall, moving(slides ? 1.1e-4 : 0.0));
       return soil.failure.has_inertia();
