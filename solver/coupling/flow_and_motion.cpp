@@ -58,6 +58,13 @@ Unsolved no_equilibrium(const std::string& where, int worst_node) {
   return {"the soil has found no equilibrium" + where, true, worst_node};
 }
 
+/// After all iterations. `worst_node`: of the last motion, if it had no equilibrium.
+Unsolved not_found(const std::optional<int>& worst_node, const std::string& worst_element) {
+  const std::string count = std::to_string(max_coupling_iterations) + " iterations";
+  if (worst_node) return no_equilibrium(" in " + count, *worst_node);
+  return {"flow and motion of the soil do not agree in " + count + ", least in " + worst_element};
+}
+
 PressureRise rise_of(const Eigen::VectorXd& rose, double dt) {
   PressureRise result{{rose.data(), rose.data() + rose.size()}, dt};
   for (double& rate : result.rate) rate /= dt;
@@ -124,10 +131,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
     }
     rise = mixing.next(rise, rose);
   }
-  const std::string count = std::to_string(max_coupling_iterations) + " iterations";
-  if (worst_node) return no_equilibrium(" in " + count, *worst_node);
-  return Unsolved{"flow and motion of the soil do not agree in " + count + ", least in " +
-                  element_text(grid_, worst_element)};
+  return not_found(worst_node, element_text(grid_, worst_element));
 } catch (const NotConverged& error) {
   return Unsolved{error.what()};
 }
