@@ -95,6 +95,7 @@ int try_first_steps(const suffuse::Case<Dim>& c, const suffuse::Plan& plan,
   }
   catch_interrupts();
   const RankTrial trial = try_ranks(c, plan, arguments.solver, arguments.trial.value_or(0));
+  if (any_of_all(ranks, interrupted())) return static_cast<int>(ExitCode::interrupted);
   if (speaks) std::cout << sentence(trial) << '\n' << std::flush;
   return static_cast<int>(ExitCode::done);
 }

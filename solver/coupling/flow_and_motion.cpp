@@ -84,12 +84,12 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   FlowForcing<Dim> forcing = step.flow.forcing.back();
   const std::vector<double> own = forcing.source;
   const FlowCoefficients<Dim> at_start = forcing.coefficients;
-  const double floor = round_off_strain * solid_.stiffness();
-  if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
-  forcing.mean_storage = held_by_soil(soils, air, forcing, pressure, dt);
   given.liquid_mass = liquid_mass(grid_, at_start, air);
   step.motion = solid_.start_step(std::move(given), std::move(step.motion));
   if (solid_.rests() && solve_at_rest(scheme, start, step)) return std::nullopt;
+  const double floor = round_off_strain * solid_.stiffness();
+  if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
+  forcing.mean_storage = held_by_soil(soils, air, forcing, pressure, dt);
   const auto on_solid = [&](const Eigen::VectorXd& rise) {
     return pressure_on_solid(grid_, soils, risen(pressure, rise), at_start.porosity, air);
   };

@@ -61,7 +61,6 @@ void EquilibriumSolver<Dim>::iterate(const NodeVectors<Dim>& loads, const Newton
   }
 }
 
-/// Unbalanced forces along free directions: loads minus forces of the solid.
 template <int Dim>
 Eigen::VectorXd EquilibriumSolver<Dim>::unbalanced(const NodeVectors<Dim>& loads) const {
   return unknowns().components(loads) - unknowns().components(equilibrium_.forces());

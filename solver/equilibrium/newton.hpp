@@ -57,11 +57,14 @@ class EquilibriumSolver {
                                        const NodeVectors<Dim>& prescribed,
                                        const NewtonLimits& limits = {});
 
+  /// Unbalanced forces along free directions, at the last displacement: loads minus forces of the
+  /// solid, N.
+  [[nodiscard]] Eigen::VectorXd unbalanced(const NodeVectors<Dim>& loads) const;
+
  private:
   [[nodiscard]] const DisplacementUnknowns<Dim>& unknowns() const {
     return equilibrium_.unknowns();
   }
-  [[nodiscard]] Eigen::VectorXd unbalanced(const NodeVectors<Dim>& loads) const;
   void iterate(const NodeVectors<Dim>& loads, const NewtonLimits& limits,
                NewtonSolution<Dim>& result);
   void factorise();

@@ -57,8 +57,7 @@ double StepEquilibrium<Dim>::stay(const NodeVectors<Dim>& loads, std::vector<dou
   displacement_.assign(loads.size(), Vector<Dim>::Zero());
   equilibrium_.displace(displacement_, false);
   iterations_ = 0;
-  const DisplacementUnknowns<Dim>& unknowns = equilibrium_.unknowns();
-  return (unknowns.components(loads) - unknowns.components(equilibrium_.forces())).norm();
+  return solver_.unbalanced(loads).norm();
 }
 
 template <int Dim>

@@ -61,7 +61,6 @@ struct MotionStep {
   NodalMotion<Dim> nodes;        ///< at the start of the step; empty without inertia
   std::vector<double> pressure;  ///< of the last solution, per element, Pa
   NodeVectors<Dim> loads;        ///< of the last solution, with crossing forces, N
-  double load_norm = 0.0;        ///< of the loads without crossing forces, N
   SolidMotion motion;            ///< the last solution
   long iterations = 0;           ///< of Newton's method, in all attempts
 };

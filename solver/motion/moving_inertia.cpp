@@ -71,12 +71,6 @@ std::vector<double> MovingSkeleton<Dim>::moved_masses(const MotionStep<Dim>& ste
 }
 
 template <int Dim>
-double MovingSkeleton<Dim>::time_of_fall() const {
-  const double g = acceleration(this->soils().scene().gravity);
-  return g > 0.0 ? std::sqrt(2.0 * mean_size(this->grid_.mesh) / g) : 0.0;
-}
-
-template <int Dim>
 SoilKinetics MovingSkeleton<Dim>::kinetics(const MotionStep<Dim>& step,
                                            const std::vector<Vector<Dim>>& before) const {
   const std::vector<double> mass = moved_masses(step);

@@ -1,6 +1,7 @@
 #include "motion/moving_skeleton.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -35,6 +36,13 @@ std::vector<double> losses(const std::vector<double>& volume, const std::vector<
   return loss;
 }
 
+/// Time in which soil falls through an element of mean size, s; 0 without gravity.
+template <int Dim>
+double fall_through_element(const Mesh<Dim>& mesh, const Scene& scene) {
+  const double g = acceleration(scene.gravity);
+  return g > 0.0 ? std::sqrt(2.0 * mean_size(mesh) / g) : 0.0;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -52,6 +60,7 @@ MovingSkeleton<Dim>::MovingSkeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils,
       solid_(grid.volume),
       region_gain_(grid.mesh.region_names.size()),
       pressure_(grid.mesh.element_count(), 0.0),
+      time_of_fall_(fall_through_element(grid.mesh, soils.scene())),
       solid_flux_(grid) {
   std::iota(id_.begin(), id_.end(), 0);
   for (int p = 0; p < points_.size(); ++p) region_.push_back(soils.region_of_point(p));
@@ -270,16 +279,16 @@ void MovingSkeleton<Dim>::load(MotionStep<Dim>& step, const std::vector<double>&
   step.pressure = pressure;
   step.loads = loads(step.forcing, solid_masses(step.loss), pressure, step.equilibrium->sorted(),
                      step.equilibrium->classes());
-  step.load_norm = norm<Dim>(step.loads);
-  if (!step.has_inertia) crossing_forces_.add(step.forcing.duration, step.loads);
   step.motion = {};
 }
 
 template <int Dim>
 bool MovingSkeleton<Dim>::stays(MotionStep<Dim>& step, const std::vector<double>& pressure) const {
   load(step, pressure);
+  const double most = held_share_ * norm<Dim>(step.loads);
+  crossing_forces_.add(step.forcing.duration, step.loads);
   step.motion.face_volume.assign(this->grid_.face_count(), 0.0);
-  step.stays = step.equilibrium->stay(step.loads, pressure) <= held_share_ * step.load_norm;
+  step.stays = step.equilibrium->stay(step.loads, pressure) <= most;
   return step.stays;
 }
 
@@ -289,6 +298,7 @@ const SolidMotion& MovingSkeleton<Dim>::solve(MotionStep<Dim>& step,
                                               std::vector<double> stiffness) const {
   StepEquilibrium<Dim>& equilibrium = *step.equilibrium;
   load(step, pressure);
+  if (!step.has_inertia) crossing_forces_.add(step.forcing.duration, step.loads);
   SolidMotion& motion = step.motion;
   motion.converged = equilibrium.solve(step.loads, pressure, std::move(stiffness));
   if (!motion.converged) motion.worst_node = equilibrium.worst_node();
@@ -309,7 +319,8 @@ template <int Dim>
 std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim> step) {
   if (!step.motion.converged) throw std::logic_error("there is no motion to commit");
   const StepEquilibrium<Dim>& equilibrium = *step.equilibrium;
-  const std::vector<double> before = smooth(solid_volumes());
+  const std::vector<double> volume = solid_volumes();
+  const std::vector<double> before = smooth(volume);
   boundary_loads_.move(equilibrium.sorted(), equilibrium.displacement());
   const std::vector<int> element = points_.element;
   const std::vector<Vector<Dim>> place = points_.position;
@@ -322,7 +333,7 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
     if (step.has_inertia) crossing_forces_.keep();  // the soil has come to rest
     if (!step.has_inertia && !step.stays) held_share_ = 0.0;
   }
-  region_gain_.book(this->grid_.mesh.element_region, element, points_.element, solid_volumes());
+  region_gain_.book(this->grid_.mesh.element_region, element, points_.element, volume);
   SolidMotion motion = std::move(step.motion);
   carry_solid(before, motion);
   correction_ = motion.solid_correction;

@@ -92,7 +92,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// Longest step at the present velocities, s.
   [[nodiscard]] double longest_step() const { return inertia_.longest_step(); }
   /// Time in which soil falls through an element of mean size, s; 0 without gravity.
-  [[nodiscard]] double time_of_fall() const;
+  [[nodiscard]] double time_of_fall() const { return time_of_fall_; }
   /// Largest modulus of soil that cannot move sideways, Pa.
   [[nodiscard]] double stiffness() const;
   /// Largest change of tractions in the run, from those at the start, Pa.
@@ -135,7 +135,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
                                        const ElementClasses& classes) const;
   /// Mass of the points' solid after this loss, kg.
   [[nodiscard]] std::vector<double> solid_masses(const std::vector<double>& loss) const;
-  /// Sets the pressures and loads of a step, before its solution.
+  /// Sets pressures and loads of a step before its solution, without crossing forces.
   void load(MotionStep<Dim>& step, const std::vector<double>& pressure) const;
   /// Makes the equilibrium of a step, with inertia if the soil has it.
   void prepare(MotionStep<Dim>& step) const;
@@ -175,6 +175,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   std::vector<double> solid_;  ///< per element, m3
   RegionGains region_gain_;
   std::vector<double> pressure_;      ///< of the pores at the last equilibrium, per element, Pa
+  double time_of_fall_;               ///< see `time_of_fall`
   std::vector<SoilFilling> filling_;  ///< after the last motion
   SolidFlux<Dim> solid_flux_;
   double correction_ = 0.0;  ///< see HistoryRow::solid_correction

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <optional>
-#include <utility>
 
 #include "common/errors.hpp"
 #include "driver/interrupt.hpp"
@@ -91,12 +90,11 @@ RankTrial rank_trial_of(const std::string& text) {
   return trial;
 }
 
-int recommended(const std::vector<RankTrial>& trials) {
+RankTrial recommended(const std::vector<RankTrial>& trials) {
   const auto fastest = std::ranges::min_element(trials, {}, &RankTrial::seconds);
-  const auto chosen = std::ranges::find_if(trials, [&](const RankTrial& trial) {
+  return *std::ranges::find_if(trials, [&](const RankTrial& trial) {
     return trial.seconds <= nearly_as_fast * fastest->seconds;
   });
-  return chosen->ranks;
 }
 
 std::vector<std::string> compare_ranks(int most, const std::vector<std::string>& arguments) {
@@ -108,6 +106,7 @@ std::vector<std::string> compare_ranks(int most, const std::vector<std::string>&
     words.push_back("--trial=" + std::to_string(steps));
     std::string output;
     const int code = launch_ranks(ranks, words, &output);
+    if (code == static_cast<int>(ExitCode::interrupted)) return lines;
     if (code != static_cast<int>(ExitCode::done)) {
       throw NumericalError("the trial on " + std::to_string(ranks) +
                            " ranks has failed, for the reason above");
@@ -117,13 +116,13 @@ std::vector<std::string> compare_ranks(int most, const std::vector<std::string>&
     lines.push_back(sentence(trials.back()));
     if (ranks == most) break;
   }
-  const int best = recommended(trials);
-  const auto chosen = std::ranges::find(trials, best, &RankTrial::ranks);
+  const RankTrial best = recommended(trials);
   std::array<char, 32> share{};
-  std::snprintf(share.data(), share.size(), "%.2f", chosen->seconds / trials.front().seconds);
-  lines.push_back(best == 1 ? "recommended on this machine: one process, no ranks"
-                            : "recommended on this machine: --ranks " + std::to_string(best) +
-                                  ", steps take " + share.data() + " of their time in one process");
+  std::snprintf(share.data(), share.size(), "%.2f", best.seconds / trials.front().seconds);
+  lines.push_back(best.ranks == 1
+                      ? "recommended on this machine: one process, no ranks"
+                      : "recommended on this machine: --ranks " + std::to_string(best.ranks) +
+                            ", steps take " + share.data() + " of their time in one process");
   return lines;
 }
 

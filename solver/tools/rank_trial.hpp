@@ -30,10 +30,11 @@ std::string sentence(const RankTrial& trial);
 RankTrial rank_trial_of(const std::string& text);
 
 /// Tries the case on 1, 2, 4, and so on, up to `most` ranks of this machine, by
-/// suffuse-solver-mpi with `arguments`. Returns a line for each, and how many to take.
+/// suffuse-solver-mpi with `arguments`. Returns a line for each, and how many to take; after an
+/// interrupt those so far. Throws NumericalError if a trial fails.
 std::vector<std::string> compare_ranks(int most, const std::vector<std::string>& arguments);
 
-/// The fewest ranks that are nearly as fast as any.
-int recommended(const std::vector<RankTrial>& trials);
+/// The trial on the fewest ranks that are nearly as fast as any.
+RankTrial recommended(const std::vector<RankTrial>& trials);
 
 }  // namespace suffuse

@@ -347,9 +347,9 @@ TEST(RankTrial, RecommendsTheFewestThatAreNearlyAsFastAsAny) {
   const auto trial = [](int ranks, double seconds) {
     return RankTrial{.ranks = ranks, .steps = 5, .seconds = seconds};
   };
-  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.55), trial(4, 0.52)}), 2);
-  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.95), trial(4, 1.5)}), 1);
-  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.5), trial(4, 0.25)}), 4);
+  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.55), trial(4, 0.52)}).ranks, 2);
+  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.95), trial(4, 1.5)}).ranks, 1);
+  EXPECT_EQ(recommended({trial(1, 1.0), trial(2, 0.5), trial(4, 0.25)}).ranks, 4);
 }
 
 }  // namespace suffuse
