@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "equilibrium/loads.hpp"
+#include "boundary/loads.hpp"
 #include "solid/soil_map.hpp"
 
 namespace suffuse {

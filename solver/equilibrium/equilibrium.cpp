@@ -30,6 +30,31 @@ std::vector<char> nodes_of(const Mesh<Dim>& mesh, const std::vector<int>& elemen
   return used;
 }
 
+/// Elastic soil of a higher Poisson's ratio is so stiff against changes of its volume that linear
+/// displacements lock.
+constexpr double most_compressible = 0.4;
+
+/// Volumes of the soil, m3, of elements that lock if they do not share their dilatation; 0 else.
+template <int Dim>
+std::vector<double> locking_volumes(const SolidBody<Dim>& body, const Supports<Dim>& supports,
+                                    std::vector<double> volume) {
+  const auto locks = [&](int p) {
+    const auto& [law, parameters] = body.skeleton[p];
+    return law->yields() || parameters.poisson > most_compressible;
+  };
+  for (std::size_t k = 0; k < volume.size(); ++k) {
+    const auto e = static_cast<int>(k);
+    if (supports.is_rigid(e) || std::ranges::none_of(body.sorted.of(e), locks)) volume[e] = 0.0;
+  }
+  return volume;
+}
+
+/// (Jm/J)^(1/d): a factor on F that makes its determinant Jm.
+template <int Dim>
+double law_factor(double mean_ratio, double ratio) {
+  return std::pow(mean_ratio / ratio, 1.0 / Dim);
+}
+
 }  // namespace
 
 PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left) {
@@ -46,8 +71,10 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
       unknowns_(supports, nodes_of(body.grid.mesh, elements_)) {
   const int count = body.grid.mesh.element_count();
   soft_.assign(count, 0.0);
+  moved_.assign(count, Gradient::Zero());
   inverse_.assign(count, Gradient::Identity());
   ratio_.assign(count, 1.0);
+  mean_ratio_ = ratio_;
   stress_.assign(count, Gradient::Zero());
   effective_.assign(count, Gradient::Zero());
   soil_volume_ = soil_volumes(body.points, body.sorted, body.classes);
@@ -64,6 +91,7 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
     for (const Vector<Dim>& g : body.grid.shape_gradient[e]) sum += (modulus * g).squaredNorm();
   }
   least_force_ = least_strain * std::sqrt(sum);
+  dilatation_ = NodalDilatation<Dim>(body.grid, locking_volumes(body, supports, soil_volume_));
   make_pattern();
 }
 
@@ -88,26 +116,62 @@ bool Equilibrium<Dim>::is_possible(const NodeVectors<Dim>& displacement) const {
 }
 
 template <int Dim>
-void Equilibrium<Dim>::displace(const NodeVectors<Dim>& displacement, bool with_tangents) {
-  displacement_ = displacement;
-  if (with_tangents) tangent_.resize(body_.grid.mesh.element_count());
+void Equilibrium<Dim>::for_each_element(const auto& call) const {
   for_each_index(
-      static_cast<int>(elements_.size()), threads_,
-      [&](int k) { displace_element(displacement, with_tangents, elements_[k]); }, worth_sharing);
+      static_cast<int>(elements_.size()), threads_, [&](int k) { call(elements_[k]); },
+      worth_sharing);
 }
 
 template <int Dim>
-void Equilibrium<Dim>::displace_element(const NodeVectors<Dim>& displacement, bool with_tangents,
-                                        int e) {
-  const Gradient moved = displacement_gradient(displacement, e);
-  const Gradient f = Gradient::Identity() + moved;
-  ratio_[e] = f.determinant();
-  inverse_[e] = f.inverse();
-  Gradient& stress = stress_[e];
-  stress = soft_[e] * moved;
+void Equilibrium<Dim>::displace(const NodeVectors<Dim>& displacement, bool with_tangents) {
+  displacement_ = displacement;
+  if (with_tangents) tangent_.resize(body_.grid.mesh.element_count());
+  for_each_element([&](int e) {
+    moved_[e] = displacement_gradient(displacement, e);
+    const Gradient f = Gradient::Identity() + moved_[e];
+    ratio_[e] = f.determinant();
+    inverse_[e] = f.inverse();
+  });
+  mean_ratio_ = dilatation_.acts() ? dilatation_.mean(ratio_) : ratio_;
+  for_each_element([&](int e) { respond(with_tangents, e); });
+  if (dilatation_.acts()) {
+    if (with_tangents) shared_tangent_.resize(tangent_.size());
+    std::vector<double> mean(ratio_.size(), 0.0);
+    for (const int e : elements_) mean[e] = effective_[e].trace() / Dim / mean_ratio_[e];
+    const std::vector<double> spread = dilatation_.spread(mean);
+    for_each_element([&](int e) {
+      if (dilatation_.is_shared(e)) share_stress(spread[e], with_tangents, e);
+    });
+  }
+  if (pressure_.empty()) return;
+  for_each_element([&](int e) { add_pressure(e, with_tangents); });
+}
+
+template <int Dim>
+std::vector<double> Equilibrium<Dim>::law_factors(const NodeVectors<Dim>& displacement) const {
+  if (!dilatation_.acts()) return {};
+  std::vector<double> ratio(ratio_.size(), 1.0);
+  for (const int e : elements_) {
+    ratio[e] = (Gradient::Identity() + displacement_gradient(displacement, e)).determinant();
+  }
+  std::vector<double> result = dilatation_.mean(ratio);
+  for (std::size_t e = 0; e < ratio.size(); ++e) {
+    result[e] = law_factor<Dim>(result[e], ratio[e]);
+  }
+  return result;
+}
+
+/// Sets stress and tangent of an element's laws. They are those of its forces, too, where its
+/// dilatation is its own.
+template <int Dim>
+void Equilibrium<Dim>::respond(bool with_tangents, int e) {
+  Gradient f = Gradient::Identity() + moved_[e];
+  if (dilatation_.is_shared(e)) f *= law_factor<Dim>(mean_ratio_[e], ratio_[e]);
+  const double soft = dilatation_.is_shared(e) ? 0.0 : soft_[e];
+  stress_[e] = soft * moved_[e];
   if (with_tangents) {
     tangent_[e].setZero();
-    tangent_[e].diagonal().setConstant(soft_[e]);
+    tangent_[e].diagonal().setConstant(soft);
   }
   Eigen::Matrix3d kirchhoff = Eigen::Matrix3d::Zero();  // times volume
   for (const int p : body_.sorted.of(e)) {
@@ -120,8 +184,52 @@ void Equilibrium<Dim>::displace_element(const NodeVectors<Dim>& displacement, bo
     if (with_tangents) tangent_[e] += volume * tangent;
   }
   effective_[e] = kirchhoff.template topLeftCorner<Dim, Dim>();
-  stress += effective_[e] * inverse_[e].transpose();
-  if (!pressure_.empty()) add_pressure(e, with_tangents);
+  stress_[e] += effective_[e] * inverse_[e].transpose();
+}
+
+/// With T the stress of the laws, Fm = (Jm/J)^(1/d) F and g = dF F^-1: dFm Fm^-1 = g + (theta - tr
+/// g)/d. The work T : dFm Fm^-1 of all elements is S : g with S = T + (mu - m) I, m = tr T/d, mu =
+/// J A^T (m/Jm). Columns are the derivatives along each component of dF, and by theta.
+template <int Dim>
+void Equilibrium<Dim>::share_stress(double spread, bool with_tangents, int e) {
+  const Gradient& stress = effective_[e];
+  const double mean = stress.trace() / Dim;
+  const double mu = ratio_[e] * spread;
+  const Gradient working = stress + (mu - mean) * Gradient::Identity();
+  const Gradient to_first = inverse_[e].transpose();
+  stress_[e] = soft_[e] * moved_[e] + working * to_first;
+  if (!with_tangents) return;
+  const Tangent of_law = tangent_[e];
+  const Gradient seen =
+      (Gradient::Identity() + moved_[e]) * law_factor<Dim>(mean_ratio_[e], ratio_[e]);
+  Gradient by_f;  // of the mean stress
+  SharedTangent& shared = shared_tangent_[e];
+  for (int k = 0; k <= Dim * Dim; ++k) {
+    Gradient df = Gradient::Zero();
+    if (k < Dim * Dim) df.reshaped()[k] = 1.0;
+    const double theta = k < Dim * Dim ? 0.0 : 1.0;
+    const Gradient g = df * inverse_[e];
+    const Gradient rate = g + (theta - g.trace()) / Dim * Gradient::Identity();
+    const Eigen::Matrix<double, Dim * Dim, 1> first = of_law * (rate * seen).reshaped();
+    const Gradient of_stress =
+        first.reshaped(Dim, Dim) * seen.transpose() + stress * rate.transpose();
+    const double of_mean = of_stress.trace() / Dim;
+    const Gradient of_working = of_stress + (mu * g.trace() - of_mean) * Gradient::Identity();
+    const Gradient column = (of_working - working * g.transpose()) * to_first;
+    if (k < Dim * Dim) {
+      tangent_[e].col(k) = column.reshaped();
+      tangent_[e](k, k) += soft_[e];
+      by_f.reshaped()[k] = of_mean;
+      continue;
+    }
+    shared.of_both = of_mean - mean;
+    for (int a = 0; a <= Dim; ++a) {
+      const Vector<Dim>& shape = body_.grid.shape_gradient[e][a];
+      shared.of_ratio.col(a) = ratio_[e] * to_first * shape;
+      shared.of_mean.col(a) = by_f * shape;
+      shared.of_forces.col(a) = column * shape;
+    }
+  }
 }
 
 /// - p V_e J F^-T and its derivative: d(J F^-T)_iJ / dF_kL = J (F^-1_Ji F^-1_Lk - F^-1_Jk F^-1_Li).
@@ -190,8 +298,52 @@ double Equilibrium<Dim>::force_scale() const {
 }
 
 template <int Dim>
-NodeVectors<Dim> Equilibrium<Dim>::tangent_times(const NodeVectors<Dim>& displacement) const {
+LinearMap Equilibrium<Dim>::shared_tangent() const {
+  if (!dilatation_.acts()) return {};
+  return [this](const Eigen::VectorXd& components) {
+    NodeVectors<Dim> displacement(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
+    unknowns_.add(components, 1.0, displacement);
+    return unknowns_.components(shared_tangent_times(displacement));
+  };
+}
+
+template <int Dim>
+NodeVectors<Dim> Equilibrium<Dim>::shared_tangent_times(
+    const NodeVectors<Dim>& displacement) const {
+  std::vector<double> of_ratio(ratio_.size(), 0.0);
+  std::vector<double> of_mean(ratio_.size(), 0.0);
+  for (const int e : elements_) {
+    if (!dilatation_.is_shared(e)) continue;
+    for (int a = 0; a <= Dim; ++a) {
+      const Vector<Dim>& u = displacement[body_.grid.mesh.elements[e][a]];
+      of_ratio[e] += shared_tangent_[e].of_ratio.col(a).dot(u);
+      of_mean[e] += shared_tangent_[e].of_mean.col(a).dot(u);
+    }
+  }
+  std::vector<double> theta = dilatation_.mean(of_ratio);
+  for (const int e : elements_) {
+    if (!dilatation_.is_shared(e)) continue;
+    theta[e] /= mean_ratio_[e];
+    of_mean[e] = (of_mean[e] + shared_tangent_[e].of_both * theta[e]) / mean_ratio_[e];
+  }
+  const std::vector<double> spread = dilatation_.spread(of_mean);
   NodeVectors<Dim> result(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
+  for (const int e : elements_) {
+    if (!dilatation_.is_shared(e)) continue;
+    const SharedTangent& shared = shared_tangent_[e];
+    for (int a = 0; a <= Dim; ++a) {
+      result[body_.grid.mesh.elements[e][a]] +=
+          theta[e] * shared.of_forces.col(a) + spread[e] * shared.of_ratio.col(a);
+    }
+  }
+  return result;
+}
+
+template <int Dim>
+NodeVectors<Dim> Equilibrium<Dim>::tangent_times(const NodeVectors<Dim>& displacement) const {
+  NodeVectors<Dim> result =
+      dilatation_.acts() ? shared_tangent_times(displacement)
+                         : NodeVectors<Dim>(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
   for (const int e : elements_) {
     const Eigen::Matrix<double, Dim * Dim, 1> change =
         tangent_[e] * displacement_gradient(displacement, e).reshaped();

@@ -22,12 +22,14 @@ template <int Dim>
 void take_stress(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step, SolidPoints<Dim>& points,
                  int threads) {
   using Gradient = Eigen::Matrix<double, Dim, Dim>;
+  const std::vector<double> factors = step.equilibrium().law_factors(step.displacement());
   for_each_index(points.size(), threads, [&](int p) {
     const int e = points.element[p];
     Gradient f = Gradient::Identity();
     for (int a = 0; a <= Dim; ++a) {
       f += step.displacement()[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
     }
+    if (!factors.empty()) f *= factors[e];
     const auto& [law, parameters] = step.skeleton()[p];
     points.skeleton[p] = skeleton_response<Dim>(*law, parameters, points.skeleton[p], f).state;
   });

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "boundary/loads.hpp"
 #include "equilibrium/compressed_soil.hpp"
-#include "equilibrium/loads.hpp"
 #include "grid/parallel.hpp"
 #include "motion/element_stiffness.hpp"
 #include "motion/moving_skeleton.hpp"

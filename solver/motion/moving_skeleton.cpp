@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "equilibrium/free_water.hpp"
+#include "boundary/free_water.hpp"
 #include "equilibrium/start_stress.hpp"
 #include "grid/parallel.hpp"
 #include "motion/element_gains.hpp"
@@ -325,7 +325,7 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
   const std::vector<int> element = points_.element;
   const std::vector<Vector<Dim>> place = points_.position;
   move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(), points_,
-              this->threads_);
+              this->threads_, equilibrium.equilibrium().law_factors(equilibrium.displacement()));
   SoilKinetics found;
   if (!inertia_.acts()) {
     found = kinetics(step, place);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "boundary/boundary_loads.hpp"
-#include "equilibrium/free_water.hpp"
+#include "boundary/free_water.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {

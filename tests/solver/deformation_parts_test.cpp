@@ -225,7 +225,9 @@ double tangent_error(const StressedBody<Dim>& body, double h) {
   equilibrium.displace(at, true);
   Eigen::SparseMatrix<double> tangent;
   equilibrium.assemble(tangent);
-  const Eigen::VectorXd product = tangent * equilibrium.unknowns().components(along);
+  const Eigen::VectorXd components = equilibrium.unknowns().components(along);
+  Eigen::VectorXd product = tangent * components;
+  if (const LinearMap shared = equilibrium.shared_tangent()) product += shared(components);
   const Eigen::VectorXd same = equilibrium.unknowns().components(equilibrium.tangent_times(along));
   EXPECT_LE((product - same).norm(), 1e-13 * product.norm());
   return (product - differences).norm() / product.norm();
@@ -242,6 +244,26 @@ TEST(Equilibrium, TangentIsTheDerivativeOfTheForces) {
 
 TEST(Equilibrium, TangentOfYieldingSoilIsTheDerivativeToo) {
   EXPECT_LE(tangent_error(StressedBody<2>(small_mesh<2>(), "mohr-coulomb"), 1e-6), 1e-6);
+  EXPECT_LE(tangent_error(StressedBody<3>(small_mesh<3>(), "mohr-coulomb"), 1e-6), 1e-6);
+}
+
+/// The work of elastic forces is a function of the displacement.
+TEST(Equilibrium, TangentIsSymmetricWhereDilatationIsShared) {
+  StressedBody<3> body(small_mesh<3>(), "elastic");
+  for (PointSkeleton& of_point : body.skeleton) of_point.parameters.poisson = 0.45;
+  Equilibrium<3> equilibrium = body.equilibrium();
+  ASSERT_TRUE(equilibrium.shared_tangent());
+  equilibrium.displace(body.some_displacement(0.01, 1), true);
+  const NodeVectors<3> one = body.some_displacement(0.1, 2);
+  const NodeVectors<3> other = body.some_displacement(0.1, 3);
+  const auto work = [&](const NodeVectors<3>& force, const NodeVectors<3>& along) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < force.size(); ++i) sum += force[i].dot(along[i]);
+    return sum;
+  };
+  const double there = work(equilibrium.tangent_times(one), other);
+  const double back = work(equilibrium.tangent_times(other), one);
+  EXPECT_NEAR(there, back, 1e-12 * std::abs(there));
 }
 
 TEST(CrossingForces, KeepTheBalanceAndFadeWhileWaterLeavesTheElements) {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "equilibrium/loads.hpp"
+#include "boundary/loads.hpp"
 #include "equilibrium/newton.hpp"
 #include "grid/element_field.hpp"
 #include "motion/point_motion.hpp"
@@ -124,7 +124,8 @@ class SolidModel {
     NewtonSolution<Dim> solution = solve_equilibrium(equilibrium, loads, prescribed, limits);
     if (!solution.converged) return solution;
     surface.move(grid, sorted, solution.displacement);
-    move_points(grid, skeleton, solution.displacement, points, threads);
+    move_points(grid, skeleton, solution.displacement, points, threads,
+                equilibrium.law_factors(solution.displacement));
     sort();
     return solution;
   }

@@ -1,4 +1,4 @@
-#include "equilibrium/free_water.hpp"
+#include "boundary/free_water.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "equilibrium/loads.hpp"
+#include "boundary/loads.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
