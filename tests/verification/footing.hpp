@@ -9,10 +9,13 @@
 #include <numbers>
 
 #include "solver/solid_model.hpp"
+#include "verification/free_mesh.hpp"
 
 namespace suffuse::footing {
 
 using model::PlaneModel;
+
+enum class Triangles { crossed, in_rows, free };
 
 /// Half of a footing of width 2, at the left of the top of a box that contains the whole mechanism.
 struct Footing {
@@ -20,7 +23,7 @@ struct Footing {
   double friction = 0.0;  ///< degrees; flow is associated
   double cohesion = 0.0;
   double surcharge = 0.0;  ///< next to the footing, and in the soil all around at the start
-  bool crossed = true;
+  Triangles triangles = Triangles::crossed;
   int steps = 6;
   double push = 80.0;  ///< final displacement, over the unit of stress over E
 };
@@ -71,8 +74,9 @@ struct FootingModel : PlaneModel {
     const int ny = static_cast<int>(std::ceil(nx / 1.8));
     const double width = static_cast<double>(nx) / cells;
     const double height = static_cast<double>(ny) / cells;
-    return footing.crossed ? model::crossed_mesh(nx, ny, width, height)
-                           : model::column_mesh(nx, ny, width, height);
+    if (footing.triangles == Triangles::free) return model::free_mesh(1.0 / cells, width, height);
+    return footing.triangles == Triangles::crossed ? model::crossed_mesh(nx, ny, width, height)
+                                                   : model::column_mesh(nx, ny, width, height);
   }
   static SkeletonModel soil_of(const Footing& footing) {
     SkeletonModel soil;
@@ -114,7 +118,8 @@ inline double limit_load(const Footing& footing, int cells) {
   const NodeVectors<2> forces = equilibrium.forces();
   double load = 0.0;
   for (const int i : m.held) load += loads[i][1] - forces[i][1];
-  std::cout << footing.law << (footing.crossed ? ", " : ", regular, ") << footing.friction
+  constexpr std::array<const char*, 3> names{", crossed, ", ", in rows, ", ", free, "};
+  std::cout << footing.law << names[static_cast<int>(footing.triangles)] << footing.friction
             << " degrees, " << cells << " cells, " << m.mesh.element_count()
             << " elements: " << load << ", iterations a step "
             << static_cast<double>(iterations) / footing.steps << std::endl;
