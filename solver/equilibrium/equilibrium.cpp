@@ -91,7 +91,7 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
     for (const Vector<Dim>& g : body.grid.shape_gradient[e]) sum += (modulus * g).squaredNorm();
   }
   least_force_ = least_strain * std::sqrt(sum);
-  dilatation_ = NodalDilatation<Dim>(body.grid, locking_volumes(body, supports, soil_volume_));
+  dilatation_ = SharedDilatation<Dim>(body.grid, locking_volumes(body, supports, soil_volume_));
   make_pattern();
 }
 
@@ -132,10 +132,10 @@ void Equilibrium<Dim>::displace(const NodeVectors<Dim>& displacement, bool with_
     ratio_[e] = f.determinant();
     inverse_[e] = f.inverse();
   });
-  mean_ratio_ = dilatation_.acts() ? dilatation_.mean(ratio_) : ratio_;
+  mean_ratio_ = ratio_;
+  dilatation_.average(mean_ratio_);
   for_each_element([&](int e) { respond(with_tangents, e); });
   if (dilatation_.acts()) {
-    if (with_tangents) shared_tangent_.resize(tangent_.size());
     std::vector<double> mean(ratio_.size(), 0.0);
     for (const int e : elements_) mean[e] = effective_[e].trace() / Dim / mean_ratio_[e];
     const std::vector<double> spread = dilatation_.spread(mean);
@@ -154,7 +154,8 @@ std::vector<double> Equilibrium<Dim>::law_factors(const NodeVectors<Dim>& displa
   for (const int e : elements_) {
     ratio[e] = (Gradient::Identity() + displacement_gradient(displacement, e)).determinant();
   }
-  std::vector<double> result = dilatation_.mean(ratio);
+  std::vector<double> result = ratio;
+  dilatation_.average(result);
   for (std::size_t e = 0; e < ratio.size(); ++e) {
     result[e] = law_factor<Dim>(result[e], ratio[e]);
   }
@@ -203,7 +204,7 @@ void Equilibrium<Dim>::share_stress(double spread, bool with_tangents, int e) {
   const Gradient seen =
       (Gradient::Identity() + moved_[e]) * law_factor<Dim>(mean_ratio_[e], ratio_[e]);
   Gradient by_f;  // of the mean stress
-  SharedTangent& shared = shared_tangent_[e];
+  typename SharedDilatation<Dim>::Tangent shared;
   for (int k = 0; k <= Dim * Dim; ++k) {
     Gradient df = Gradient::Zero();
     if (k < Dim * Dim) df.reshaped()[k] = 1.0;
@@ -230,6 +231,7 @@ void Equilibrium<Dim>::share_stress(double spread, bool with_tangents, int e) {
       shared.of_forces.col(a) = column * shape;
     }
   }
+  dilatation_.set_tangent(e, shared);
 }
 
 /// - p V_e J F^-T and its derivative: d(J F^-T)_iJ / dF_kL = J (F^-1_Ji F^-1_Lk - F^-1_Jk F^-1_Li).
@@ -298,52 +300,8 @@ double Equilibrium<Dim>::force_scale() const {
 }
 
 template <int Dim>
-LinearMap Equilibrium<Dim>::shared_tangent() const {
-  if (!dilatation_.acts()) return {};
-  return [this](const Eigen::VectorXd& components) {
-    NodeVectors<Dim> displacement(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
-    unknowns_.add(components, 1.0, displacement);
-    return unknowns_.components(shared_tangent_times(displacement));
-  };
-}
-
-template <int Dim>
-NodeVectors<Dim> Equilibrium<Dim>::shared_tangent_times(
-    const NodeVectors<Dim>& displacement) const {
-  std::vector<double> of_ratio(ratio_.size(), 0.0);
-  std::vector<double> of_mean(ratio_.size(), 0.0);
-  for (const int e : elements_) {
-    if (!dilatation_.is_shared(e)) continue;
-    for (int a = 0; a <= Dim; ++a) {
-      const Vector<Dim>& u = displacement[body_.grid.mesh.elements[e][a]];
-      of_ratio[e] += shared_tangent_[e].of_ratio.col(a).dot(u);
-      of_mean[e] += shared_tangent_[e].of_mean.col(a).dot(u);
-    }
-  }
-  std::vector<double> theta = dilatation_.mean(of_ratio);
-  for (const int e : elements_) {
-    if (!dilatation_.is_shared(e)) continue;
-    theta[e] /= mean_ratio_[e];
-    of_mean[e] = (of_mean[e] + shared_tangent_[e].of_both * theta[e]) / mean_ratio_[e];
-  }
-  const std::vector<double> spread = dilatation_.spread(of_mean);
-  NodeVectors<Dim> result(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
-  for (const int e : elements_) {
-    if (!dilatation_.is_shared(e)) continue;
-    const SharedTangent& shared = shared_tangent_[e];
-    for (int a = 0; a <= Dim; ++a) {
-      result[body_.grid.mesh.elements[e][a]] +=
-          theta[e] * shared.of_forces.col(a) + spread[e] * shared.of_ratio.col(a);
-    }
-  }
-  return result;
-}
-
-template <int Dim>
 NodeVectors<Dim> Equilibrium<Dim>::tangent_times(const NodeVectors<Dim>& displacement) const {
-  NodeVectors<Dim> result =
-      dilatation_.acts() ? shared_tangent_times(displacement)
-                         : NodeVectors<Dim>(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
+  NodeVectors<Dim> result(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
   for (const int e : elements_) {
     const Eigen::Matrix<double, Dim * Dim, 1> change =
         tangent_[e] * displacement_gradient(displacement, e).reshaped();
@@ -353,6 +311,7 @@ NodeVectors<Dim> Equilibrium<Dim>::tangent_times(const NodeVectors<Dim>& displac
     }
   }
   for (std::size_t i = 0; i < inertia_.size(); ++i) result[i] += inertia_[i] * displacement[i];
+  dilatation_.add_tangent_times(displacement, mean_ratio_, result);
   return result;
 }
 
@@ -422,6 +381,7 @@ void Equilibrium<Dim>::make_pattern() {
       }
     }
   }
+  dilatation_.add_pattern(unknowns_, entries);
   pattern_.resize(unknowns_.count(), unknowns_.count());
   pattern_.setFromTriplets(entries.begin(), entries.end());
   slots_.resize(elements_.size());
@@ -468,6 +428,7 @@ void Equilibrium<Dim>::add_inertia(Eigen::SparseMatrix<double>& matrix) const {
 template <int Dim>
 void Equilibrium<Dim>::assemble(Eigen::SparseMatrix<double>& tangent) const {
   scatter([&](int e) -> const Tangent& { return tangent_[e]; }, tangent);
+  dilatation_.add_tangent(unknowns_, mean_ratio_, tangent);
 }
 
 template <int Dim>

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "equilibrium/element_classes.hpp"
-#include "equilibrium/nodal_dilatation.hpp"
+#include "equilibrium/shared_dilatation.hpp"
 #include "equilibrium/supports.hpp"
-#include "linear/sum_operator.hpp"
 #include "physics/skeleton/skeleton_response.hpp"
 
 namespace suffuse {
@@ -49,9 +48,9 @@ struct SolidBody {
 ///
 /// with the Kirchhoff stress tau of each point by its law, J = det F and the pore pressure p of the
 /// element (docs/theory.md, "Equilibrium of the solid"). Where elements share their dilatation,
-/// laws see (Jm/J)^(1/d) F with the mean ratio Jm of `NodalDilatation`, and the forces are those of
-/// the same work. Contributions of elements are added in the order of the elements: the same bits
-/// on any number of threads.
+/// laws see (Jm/J)^(1/d) F with the mean ratio Jm of `SharedDilatation`, and the forces are those
+/// of the same work. Contributions of elements are added in the order of the elements: the same
+/// bits on any number of threads.
 template <int Dim>
 class Equilibrium {
  public:
@@ -86,13 +85,8 @@ class Equilibrium {
   [[nodiscard]] double force_scale() const;
   /// Factor on F that the laws of each element see at a possible displacement; empty: 1 everywhere.
   [[nodiscard]] std::vector<double> law_factors(const NodeVectors<Dim>& displacement) const;
-  /// Sets the derivative of the forces by the unknowns, N/m, in the pattern of `pattern()`, without
-  /// what is left to `shared_tangent`.
+  /// Sets the derivative of the forces by the unknowns, N/m, in the pattern of `pattern()`.
   void assemble(Eigen::SparseMatrix<double>& tangent) const;
-  /// The derivative by shared dilatations, as a map of the unknowns, m, to forces along them, N: it
-  /// couples elements over three rings of nodes, too many for a matrix. Empty if nothing is shared.
-  /// It refers to this.
-  [[nodiscard]] LinearMap shared_tangent() const;
   /// The derivative times a displacement, N.
   [[nodiscard]] NodeVectors<Dim> tangent_times(const NodeVectors<Dim>& displacement) const;
   /// The elastic stiffness of this body without stress. It is symmetric and, where the soil is
@@ -133,10 +127,9 @@ class Equilibrium {
   /// Calls a function with each element that has points, on several threads.
   void for_each_element(const auto& call) const;
   void respond(bool with_tangents, int element);
-  /// Sets the forces, and their tangent, of an element that shares its dilatation. `spread`: A^T of
-  /// the mean stresses over the mean ratios, Pa m3.
+  /// Sets the forces, and their tangent, of an element that shares its dilatation, with what
+  /// `SharedDilatation::spread` gives it, Pa m3.
   void share_stress(double spread, bool with_tangents, int element);
-  [[nodiscard]] NodeVectors<Dim> shared_tangent_times(const NodeVectors<Dim>& displacement) const;
   void add_pressure(int element, bool with_tangents);
   [[nodiscard]] ElementMatrix element_matrix(int element, const Tangent& tangent) const;
   [[nodiscard]] Vector<Dim> inertia_force(int node) const {
@@ -157,7 +150,7 @@ class Equilibrium {
   NodeVectors<Dim> displacement_;  ///< the last displacement, m
   double least_force_ = 0.0;       ///< part of `force_scale`, N
   std::vector<double> soft_;       ///< per element: stiffness against grad du, Pa m3
-  NodalDilatation<Dim> dilatation_;
+  SharedDilatation<Dim> dilatation_;
   std::vector<Gradient> moved_;      ///< grad du per element
   std::vector<Gradient> inverse_;    ///< F^-1 per element
   std::vector<double> ratio_;        ///< det F per element
@@ -166,17 +159,6 @@ class Equilibrium {
   std::vector<Gradient> effective_;  ///< V_e J sigma' per element, Pa m3
   std::vector<double> soil_volume_;  ///< per element, m3
   std::vector<Tangent> tangent_;     ///< derivative of `stress_` by F, or of the law alone
-  /// Derivatives of an element that shares its dilatation, with dtheta = dJm/Jm: of J and of the
-  /// mean stress m by the displacements of its nodes, of the forces on its nodes by theta, and of m
-  /// by theta, less m.
-  struct SharedTangent {
-    using OfNodes = Eigen::Matrix<double, Dim, Dim + 1>;
-    OfNodes of_ratio;
-    OfNodes of_mean;
-    OfNodes of_forces;
-    double of_both = 0.0;
-  };
-  std::vector<SharedTangent> shared_tangent_;
   Eigen::SparseMatrix<double> pattern_;
   /// Per element with points: index of each entry of its matrix in `pattern_`, or -1.
   std::vector<std::array<int, ElementMatrix::SizeAtCompileTime>> slots_;

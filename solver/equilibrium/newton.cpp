@@ -90,7 +90,7 @@ bool EquilibriumSolver<Dim>::find_step(const Eigen::VectorXd& force, double accu
   factorise();
   equilibrium_.assemble(matrix_);
   try {
-    system_.solve(matrix_, equilibrium_.shared_tangent(), force, step, accuracy);
+    system_.solve(matrix_, force, step, accuracy);
   } catch (const NumericalError&) {
     return false;
   }

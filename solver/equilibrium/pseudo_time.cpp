@@ -121,7 +121,7 @@ bool PseudoTime<Dim>::improve(Eigen::VectorXd& defect) {
   values(matrix_) += values(elastic_) / length_;
   Eigen::VectorXd step;
   try {
-    system_.solve(matrix_, equilibrium_.shared_tangent(), defect, step, linear_accuracy);
+    system_.solve(matrix_, defect, step, linear_accuracy);
   } catch (const NumericalError&) {
     return false;
   }

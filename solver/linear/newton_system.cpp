@@ -10,11 +10,6 @@ namespace suffuse {
 namespace {
 
 constexpr int max_iterations = 60;
-/// Most iterations where only part of the operator is a matrix. A footing at its limit load on 1600
-/// triangles took 174 at most.
-constexpr int max_iterations_of_sum = 300;
-/// Matrices with more entries are not factored in vain: only part of the operator is in them.
-constexpr Eigen::Index largest_direct = 500'000;
 constexpr double tangent_accuracy = 1e-4;
 
 /// The factor with the interface of Eigen's preconditioners.
@@ -40,16 +35,6 @@ class FactorPreconditioner {
   [[nodiscard]] static Eigen::ComputationInfo info() { return Eigen::Success; }
 
   Factor* factor = nullptr;
-};
-
-/// An exact factor of a matrix that is not symmetric.
-class DirectPreconditioner : public FactorPreconditioner {
- public:
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const {
-    return direct->solve(rhs);
-  }
-
-  const Eigen::SparseLU<Eigen::SparseMatrix<double>>* direct = nullptr;
 };
 
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -95,13 +80,12 @@ void NewtonSystem::factorise(const Eigen::SparseMatrix<double>& nearly) {
 
 template <class Matrix, class Preconditioner>
 bool NewtonSystem::iterate(const Matrix& matrix, const Preconditioner& preconditioner,
-                           const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy,
-                           int most) {
+                           const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy) {
   ++counts_.solves;
   Eigen::BiCGSTAB<Matrix, Preconditioner> iterations;
   iterations.preconditioner() = preconditioner;
   iterations.setTolerance(accuracy);
-  iterations.setMaxIterations(most);
+  iterations.setMaxIterations(max_iterations);
   iterations.compute(matrix);
   x = iterations.solve(rhs);
   counts_.iterations += iterations.iterations();
@@ -117,33 +101,13 @@ void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const Eigen:
                          Eigen::VectorXd& x, double accuracy) {
   FactorPreconditioner preconditioner;
   preconditioner.factor = factor_.get();
-  if (iterate(matrix, preconditioner, rhs, x, accuracy, max_iterations)) return;
+  if (iterate(matrix, preconditioner, rhs, x, accuracy)) return;
   if (!factor_->is_exact()) refuse_unsolved();
   Eigen::SparseLU<Eigen::SparseMatrix<double>> direct(matrix);
   if (direct.info() == Eigen::Success) x = direct.solve(rhs);
   if (direct.info() != Eigen::Success || !x.allFinite()) {
     throw NumericalError("the pressures could not be solved for: the system is singular");
   }
-}
-
-void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const LinearMap& more,
-                         const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy) {
-  if (!more) return solve(matrix, rhs, x, accuracy);
-  const SumOperator sum(matrix, more);
-  FactorPreconditioner symmetric;
-  symmetric.factor = factor_.get();
-  if (iterate(sum, symmetric, rhs, x, accuracy, max_iterations_of_sum)) return;
-  if (matrix.nonZeros() <= largest_direct) {
-    const Eigen::SparseLU<Eigen::SparseMatrix<double>> direct(matrix);
-    DirectPreconditioner of_matrix;
-    of_matrix.direct = &direct;
-    if (direct.info() == Eigen::Success &&
-        iterate(sum, of_matrix, rhs, x, accuracy, max_iterations_of_sum)) {
-      return;
-    }
-  }
-  throw NumericalError("the displacements were not found in " +
-                       std::to_string(max_iterations_of_sum) + " iterations");
 }
 
 void NewtonSystem::solve_tangent(const Eigen::SparseMatrix<double>& matrix,
@@ -153,9 +117,7 @@ void NewtonSystem::solve_tangent(const Eigen::SparseMatrix<double>& matrix,
   TwoStagePreconditioner preconditioner;
   preconditioner.factor = factor_.get();
   preconditioner.rows = &rows;
-  if (!iterate(matrix, preconditioner, rhs, x, tangent_accuracy, max_iterations)) {
-    refuse_unsolved();
-  }
+  if (!iterate(matrix, preconditioner, rhs, x, tangent_accuracy)) refuse_unsolved();
 }
 
 }  // namespace suffuse

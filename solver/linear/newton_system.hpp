@@ -10,7 +10,6 @@
 
 #include "linear/cholesky_factor.hpp"
 #include "linear/lagged_preconditioner.hpp"
-#include "linear/sum_operator.hpp"
 
 namespace suffuse {
 
@@ -29,12 +28,6 @@ class NewtonSystem {
   /// \param accuracy  of the residual, relative to the right-hand side
   void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
              Eigen::VectorXd& x, double accuracy = 1e-9);
-
-  /// Sets x to the solution of (matrix + more) x = rhs, with the factor of the symmetric matrix,
-  /// and with one of `matrix` if that takes too long. Throws NumericalError if neither finds it.
-  /// \param more  none: the same as without it
-  void solve(const Eigen::SparseMatrix<double>& matrix, const LinearMap& more,
-             const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy);
 
   /// Solves for a tangent that is far from the symmetric matrix, where the next iteration of the
   /// caller corrects the error: with an inexact factor the residual may be 1e-4 of the right-hand
@@ -60,7 +53,7 @@ class NewtonSystem {
   /// Iterates with this preconditioner. Returns whether the solution was found.
   template <class Matrix, class Preconditioner>
   bool iterate(const Matrix& matrix, const Preconditioner& preconditioner,
-               const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy, int most);
+               const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy);
   [[noreturn]] static void refuse_unsolved();
 
   std::unique_ptr<Factor> factor_;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "boundary/loads.hpp"
-#include "equilibrium/compressed_soil.hpp"
 #include "grid/parallel.hpp"
+#include "motion/compressed_soil.hpp"
 #include "motion/element_stiffness.hpp"
 #include "motion/moving_skeleton.hpp"
 

@@ -7,11 +7,11 @@
 #include <stdexcept>
 
 #include "boundary/free_water.hpp"
-#include "equilibrium/start_stress.hpp"
 #include "grid/parallel.hpp"
 #include "motion/element_gains.hpp"
 #include "motion/element_stiffness.hpp"
 #include "motion/point_motion.hpp"
+#include "motion/start_stress.hpp"
 #include "physics/head.hpp"
 #include "solid/pores.hpp"
 

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "boundary/boundary_loads.hpp"
-#include "equilibrium/crossing_forces.hpp"
-#include "equilibrium/start_stress.hpp"
+#include "motion/crossing_forces.hpp"
 #include "motion/motion_step.hpp"
 #include "motion/region_gains.hpp"
 #include "motion/soil_inertia.hpp"
 #include "motion/solid_flux.hpp"
+#include "motion/start_stress.hpp"
 #include "solid/eroding_skeleton.hpp"
 
 namespace suffuse {

@@ -1,4 +1,4 @@
-#include "equilibrium/start_stress.hpp"
+#include "motion/start_stress.hpp"
 
 #include <algorithm>
 

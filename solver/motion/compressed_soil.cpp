@@ -1,4 +1,4 @@
-#include "equilibrium/compressed_soil.hpp"
+#include "motion/compressed_soil.hpp"
 
 #include <Eigen/LU>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "equilibrium/crossing_forces.hpp"
+#include "motion/crossing_forces.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,0 +1,153 @@
+#include "equilibrium/shared_dilatation.hpp"
+
+#include <algorithm>
+
+#include "equilibrium/dilatation_patches.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+SharedDilatation<Dim>::SharedDilatation(const Grid<Dim>& grid, const std::vector<double>& weight) {
+  if (std::ranges::none_of(weight, [](double w) { return w > 0.0; })) return;
+  const std::vector<int> patch = dilatation_patches(grid);
+  std::vector<std::vector<int>> elements(patch.size());
+  for (std::size_t e = 0; e < patch.size(); ++e) {
+    if (weight[e] > 0.0 && patch[e] >= 0) elements[patch[e]].push_back(static_cast<int>(e));
+  }
+  share_.assign(weight.size(), 0.0);
+  for (std::vector<int>& of_patch : elements) {
+    if (of_patch.size() > 1) add_patch(grid.mesh, weight, std::move(of_patch));
+  }
+  if (acts()) tangent_.resize(weight.size());
+}
+
+template <int Dim>
+void SharedDilatation<Dim>::add_patch(const Mesh<Dim>& mesh, const std::vector<double>& weight,
+                                      std::vector<int> elements) {
+  Patch patch;
+  double sum = 0.0;
+  for (const int e : elements) {
+    sum += weight[e];
+    std::array<int, Dim + 1> places;
+    for (int a = 0; a <= Dim; ++a) {
+      const auto at = std::ranges::find(patch.nodes, mesh.elements[e][a]);
+      places[a] = static_cast<int>(at - patch.nodes.begin());
+      if (at == patch.nodes.end()) patch.nodes.push_back(mesh.elements[e][a]);
+    }
+    patch.places.push_back(places);
+  }
+  for (const int e : elements) share_[e] = weight[e] / sum;
+  patch.elements = std::move(elements);
+  patches_.push_back(std::move(patch));
+}
+
+template <int Dim>
+void SharedDilatation<Dim>::average(std::vector<double>& ratio) const {
+  for (const Patch& patch : patches_) {
+    double mean = 0.0;
+    for (const int e : patch.elements) mean += share_[e] * ratio[e];
+    for (const int e : patch.elements) ratio[e] = mean;
+  }
+}
+
+template <int Dim>
+std::vector<double> SharedDilatation<Dim>::spread(const std::vector<double>& mean) const {
+  std::vector<double> result(mean.size(), 0.0);
+  for (const Patch& patch : patches_) {
+    double sum = 0.0;
+    for (const int e : patch.elements) sum += mean[e];
+    for (const int e : patch.elements) result[e] = share_[e] * sum;
+  }
+  return result;
+}
+
+template <int Dim>
+void SharedDilatation<Dim>::add_pattern(const DisplacementUnknowns<Dim>& unknowns,
+                                        std::vector<Eigen::Triplet<double>>& entries) const {
+  std::vector<int> of_patch;
+  for (const Patch& patch : patches_) {
+    of_patch.clear();
+    for (const int i : patch.nodes) {
+      for (int k = 0; k < unknowns.count(i); ++k) of_patch.push_back(unknowns.first(i) + k);
+    }
+    for (const int column : of_patch) {
+      for (const int row : of_patch) entries.emplace_back(row, column, 0.0);
+    }
+  }
+}
+
+/// Of a patch, the derivative is f r^T + r q^T: theta changes by r per displacement of its nodes,
+/// its forces by f per theta, and the sum of its mean stresses by q per displacement.
+template <int Dim>
+void SharedDilatation<Dim>::add_tangent(const DisplacementUnknowns<Dim>& unknowns,
+                                        const std::vector<double>& mean_ratio,
+                                        Eigen::SparseMatrix<double>& matrix) const {
+  for (const Patch& patch : patches_) {
+    std::vector<int> of_patch;
+    Eigen::MatrixXd vectors = Eigen::MatrixXd::Zero(Dim * patch.nodes.size(), 3);  // r, f, q
+    double both = 0.0;
+    const double ratio = mean_ratio[patch.elements.front()];
+    for (std::size_t k = 0; k < patch.elements.size(); ++k) {
+      const int e = patch.elements[k];
+      for (int a = 0; a <= Dim; ++a) {
+        auto at = vectors.middleRows<Dim>(Dim * patch.places[k][a]);
+        at.col(0) += share_[e] / ratio * tangent_[e].of_ratio.col(a);
+        at.col(1) += tangent_[e].of_forces.col(a);
+        at.col(2) += tangent_[e].of_mean.col(a);
+      }
+      both += tangent_[e].of_both;
+    }
+    vectors.col(2) += both * vectors.col(0);
+    int count = 0;
+    for (std::size_t at = 0; at < patch.nodes.size(); ++at) {
+      const int i = patch.nodes[at];
+      const Eigen::Matrix<double, Dim, 3> along =
+          unknowns.supports().directions(i).transpose() * vectors.middleRows<Dim>(Dim * at);
+      for (int k = 0; k < unknowns.count(i); ++k) {
+        of_patch.push_back(unknowns.first(i) + k);
+        vectors.row(count++) = along.row(k);
+      }
+    }
+    for (int column = 0; column < count; ++column) {
+      for (int row = 0; row < count; ++row) {
+        matrix.coeffRef(of_patch[row], of_patch[column]) +=
+            vectors(row, 1) * vectors(column, 0) + vectors(row, 0) * vectors(column, 2);
+      }
+    }
+  }
+}
+
+template <int Dim>
+void SharedDilatation<Dim>::add_tangent_times(const NodeVectors<Dim>& displacement,
+                                              const std::vector<double>& mean_ratio,
+                                              NodeVectors<Dim>& forces) const {
+  for (const Patch& patch : patches_) {
+    const double ratio = mean_ratio[patch.elements.front()];
+    double theta = 0.0;
+    double mean = 0.0;
+    double both = 0.0;
+    for (std::size_t k = 0; k < patch.elements.size(); ++k) {
+      const int e = patch.elements[k];
+      for (int a = 0; a <= Dim; ++a) {
+        const Vector<Dim>& u = displacement[patch.nodes[patch.places[k][a]]];
+        theta += share_[e] / ratio * tangent_[e].of_ratio.col(a).dot(u);
+        mean += tangent_[e].of_mean.col(a).dot(u);
+      }
+      both += tangent_[e].of_both;
+    }
+    mean += both * theta;
+    for (std::size_t k = 0; k < patch.elements.size(); ++k) {
+      const int e = patch.elements[k];
+      for (int a = 0; a <= Dim; ++a) {
+        forces[patch.nodes[patch.places[k][a]]] +=
+            theta * tangent_[e].of_forces.col(a) +
+            mean * share_[e] / ratio * tangent_[e].of_ratio.col(a);
+      }
+    }
+  }
+}
+
+template class SharedDilatation<2>;
+template class SharedDilatation<3>;
+
+}  // namespace suffuse

@@ -1,0 +1,77 @@
+#pragma once
+
+/// Elements that share their dilatation, against locking.
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "equilibrium/supports.hpp"
+
+namespace suffuse {
+
+/// Soil that keeps its volume, or changes it as its plastic flow demands, is too stiff on triangles
+/// and tetrahedra with linear displacements: there are more elements, each with a condition on its
+/// volume, than displacements. So neighbours are joined to patches, two triangles or four
+/// tetrahedra in most, and laws see the volume ratio of the patch,
+///
+///     Jm = sum_e w_e J_e / sum_e w_e,
+///
+/// with the volume w_e of an element's soil (F-bar patches: de Souza Neto, Andrade Pires and Owen,
+/// Int. J. Numer. Meth. Eng. 62 (2005) 353). Patches depend on the mesh alone and lie within a
+/// region. Triangles of a crossed mesh do not lock, and keep their own ratio.
+template <int Dim>
+class SharedDilatation {
+ public:
+  SharedDilatation() = default;
+  /// \param weight  per element: the volume of its soil, m3; 0: it takes no part
+  SharedDilatation(const Grid<Dim>& grid, const std::vector<double>& weight);
+
+  /// Whether any element shares its dilatation.
+  [[nodiscard]] bool acts() const { return !patches_.empty(); }
+  [[nodiscard]] bool is_shared(int element) const { return acts() && share_[element] > 0.0; }
+  /// Sets the ratios of elements in a patch to that of the patch.
+  void average(std::vector<double>& ratio) const;
+  /// The derivative of the work of mean stresses by J: w_e / sum w times the sum of m/Jm in the
+  /// patch, Pa m3 per element; 0 where nothing is shared.
+  /// \param mean  per element: m/Jm, Pa m3
+  [[nodiscard]] std::vector<double> spread(const std::vector<double>& mean) const;
+
+  /// Derivatives of an element, with dtheta = dJm/Jm: of J and of the mean stress m by the
+  /// displacements of its nodes, of the forces on its nodes by theta, and of m by theta, less m.
+  struct Tangent {
+    using OfNodes = Eigen::Matrix<double, Dim, Dim + 1>;
+    OfNodes of_ratio;
+    OfNodes of_mean;
+    OfNodes of_forces;
+    double of_both = 0.0;
+  };
+  /// Sets the derivatives of an element that shares its dilatation.
+  void set_tangent(int element, const Tangent& tangent) { tangent_[element] = tangent; }
+  /// Appends the entries of the unknowns that patches couple.
+  void add_pattern(const DisplacementUnknowns<Dim>& unknowns,
+                   std::vector<Eigen::Triplet<double>>& entries) const;
+  /// Adds the derivative of the forces by the shared ratios to a matrix with these entries.
+  /// \param mean_ratio  Jm per element
+  void add_tangent(const DisplacementUnknowns<Dim>& unknowns, const std::vector<double>& mean_ratio,
+                   Eigen::SparseMatrix<double>& matrix) const;
+  /// Adds that derivative times a displacement, N.
+  void add_tangent_times(const NodeVectors<Dim>& displacement,
+                         const std::vector<double>& mean_ratio, NodeVectors<Dim>& forces) const;
+
+ private:
+  /// Nodes of a patch, and per element the places of its nodes among them.
+  struct Patch {
+    std::vector<int> elements;
+    std::vector<int> nodes;
+    std::vector<std::array<int, Dim + 1>> places;
+  };
+
+  void add_patch(const Mesh<Dim>& mesh, const std::vector<double>& weight,
+                 std::vector<int> elements);
+
+  std::vector<Patch> patches_;    ///< of two elements or more
+  std::vector<double> share_;     ///< per element: w_e / sum w in its patch; 0: not shared
+  std::vector<Tangent> tangent_;  ///< per element
+};
+
+}  // namespace suffuse
