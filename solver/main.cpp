@@ -100,16 +100,6 @@ int try_first_steps(const suffuse::Case<Dim>& c, const suffuse::Plan& plan,
   return static_cast<int>(ExitCode::done);
 }
 
-suffuse::Case<2> read_plane_case(const std::string& path) {
-  const int dimension = suffuse::read_case_dimension(path);
-  if (dimension != 2) {
-    throw suffuse::InputError(path +
-                              ": got a case of three dimensions; expected one of two: "
-                              "strength reduction is for plane models");
-  }
-  return suffuse::read_case<2>(path);
-}
-
 template <int Dim>
 int solve(const Arguments& arguments) {
   using namespace suffuse;
@@ -234,7 +224,11 @@ int find_strength(Arguments& arguments) {
   if (!arguments.folder.empty()) arguments.strength.output = arguments.folder;
   arguments.strength.threads = arguments.solver.threads;
   arguments.strength.quiet = arguments.run.quiet;
-  suffuse::run_strength_reduction(read_plane_case(arguments.case_path), arguments.strength);
+  if (suffuse::read_case_dimension(arguments.case_path) == 2) {
+    suffuse::run_strength_reduction(suffuse::read_case<2>(arguments.case_path), arguments.strength);
+  } else {
+    suffuse::run_strength_reduction(suffuse::read_case<3>(arguments.case_path), arguments.strength);
+  }
   return static_cast<int>(suffuse::ExitCode::done);
 }
 

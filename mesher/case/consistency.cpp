@@ -104,10 +104,9 @@ class SceneCheck {
   void refuse_what_is_plane() {
     const Scene& scene = document_.scene;
     const std::string only = " in two dimensions only";
-    for (const Soil& soil : scene.soils) {
-      if (!soil.skeleton.moves()) continue;
-      report("soil." + soil.region + ".skeleton", "a skeleton that moves, in three dimensions",
-             "no such table: soil moves" + only);
+    if (scene.moves() && scene.formulation == Formulation::double_point) {
+      report("formulation", "\"double-point\" with a skeleton that moves, in three dimensions",
+             "\"single-point\": soil moves with double points" + only);
     }
     if (scene.time.scheme == FlowScheme::explicit_nodal) {
       report("time.scheme", "\"explicit\" in three dimensions",

@@ -39,7 +39,6 @@ class Plausibility : private PlausibilityBase<Dim> {
     for (const Soil& soil : scene_.soils) check_soil(soil);
     check_gravity();
     check_resolution();
-    check_structure();
     return std::move(warnings_);
   }
 
@@ -121,21 +120,6 @@ class Plausibility : private PlausibilityBase<Dim> {
     g.assign(Dim, 0.0);
     g.back() = -9.81;
     warn("gravity", text + "; " + shown_value(g) + " is usual");
-  }
-
-  /// Warns of triangles that are not crossed: with yielding soil limit loads are too high, by 9 %
-  /// and more (docs/limits.md).
-  void check_structure() {
-    if (scene_.mesh.structure == MeshStructure::crossed) return;
-    for (const Soil& soil : scene_.soils) {
-      if (!soil.skeleton.moves() || !soil.skeleton.law->yields()) continue;
-      const bool regular = scene_.mesh.structure == MeshStructure::regular;
-      warn("mesh.structure", std::string(regular ? "\"regular\"" : "\"free\"") + ", and the soil " +
-                                 shown_value(soil.region) +
-                                 " yields: such triangles are too stiff then, and the soil carries "
-                                 "too much; \"crossed\" is usual");
-      return;
-    }
   }
 
   // Elements across a region.

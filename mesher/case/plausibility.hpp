@@ -13,8 +13,8 @@
 namespace suffuse {
 
 /// Warnings of unusual lengths, densities and conductivities, gravity that points upwards, regions
-/// of soil with fewer than four elements from where water enters to where it leaves, soil that
-/// yields on triangles that are not crossed, and what `plausibility_base.hpp` lists.
+/// of soil with fewer than four elements from where water enters to where it leaves, and what
+/// `plausibility_base.hpp` lists.
 template <int Dim>
 std::vector<std::string> plausibility_warnings(const SceneDocument& document,
                                                const Mesh<Dim>& mesh);

@@ -7,53 +7,31 @@
 namespace suffuse {
 namespace {
 
-/// Sides of a cell's diagonal that differ in direction by less than this are one line.
-constexpr double in_line = 1e-6;
 /// Faces whose areas differ by less than this share count as equal.
 constexpr double equal_areas = 1e-4;
 constexpr int tetrahedra_of_patch = 4;
 
-/// The other two nodes of a triangle.
-std::array<int, 2> others(const std::array<int, 3>& nodes, int node) {
-  const auto at = static_cast<int>(std::ranges::find(nodes, node) - nodes.begin());
-  return {nodes[(at + 1) % 3], nodes[(at + 2) % 3]};
-}
-
-/// Whether four triangles around a node are a quadrangle that is cut along both diagonals.
-bool is_crossing(const Mesh<2>& mesh, int node, const std::array<int, 4>& triangles) {
-  const auto direction = [&](int to) {
-    return Vector<2>((mesh.nodes[to] - mesh.nodes[node]).normalized());
-  };
-  const auto continues = [&](int end) {
-    return std::ranges::any_of(triangles, [&](int triangle) {
-      return std::ranges::any_of(others(mesh.elements[triangle], node), [&](int other) {
-        return (direction(end) + direction(other)).norm() < in_line;
-      });
-    });
-  };
-  return std::ranges::all_of(others(mesh.elements[triangles[0]], node), continues);
-}
-
-/// Per element: whether it is a quarter of a quadrangle that is cut along both diagonals.
-std::vector<char> crossed_elements(const Mesh<2>& mesh) {
-  std::vector<int> count(mesh.node_count(), 0);
-  std::vector<std::array<int, 4>> around(mesh.node_count());
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    for (const int i : mesh.elements[e]) {
-      if (count[i] < 4) around[i][count[i]] = e;
-      ++count[i];
-    }
+/// Per element: whether it is a quarter of a quadrangle: four triangles around a node inside.
+std::vector<char> quarters(const Grid<2>& grid) {
+  const Mesh<2>& mesh = grid.mesh;
+  std::vector<int> around(mesh.node_count(), 0);
+  for (const auto& nodes : mesh.elements) {
+    for (const int i : nodes) ++around[i];
+  }
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (!grid.is_outer(f)) continue;
+    for (const int i : grid.face_nodes[f]) around[i] = 0;
   }
   std::vector<char> result(mesh.elements.size(), 0);
-  for (int i = 0; i < mesh.node_count(); ++i) {
-    if (count[i] != 4 || !is_crossing(mesh, i, around[i])) continue;
-    for (const int e : around[i]) result[e] = 1;
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    const auto is_middle = [&](int i) { return around[i] == 4; };
+    result[e] = std::ranges::any_of(mesh.elements[e], is_middle) ? 1 : 0;
   }
   return result;
 }
 
-std::vector<char> crossed_elements(const Mesh<3>& mesh) {
-  return std::vector<char>(mesh.elements.size(), 0);
+std::vector<char> quarters(const Grid<3>& grid) {
+  return std::vector<char>(grid.mesh.elements.size(), 0);
 }
 
 /// Joins the elements of a mesh to patches.
@@ -61,7 +39,7 @@ template <int Dim>
 class Joining {
  public:
   explicit Joining(const Grid<Dim>& grid)
-      : grid_(grid), crossed_(crossed_elements(grid.mesh)), patch_(crossed_.size(), -1) {}
+      : grid_(grid), crossed_(quarters(grid)), patch_(crossed_.size(), -1) {}
 
   std::vector<int> find() {
     if (Dim == 2) {

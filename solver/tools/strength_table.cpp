@@ -65,6 +65,7 @@ Snapshot start_snapshot(const Case<Dim>& c, int threads) {
 }
 
 /// The fields of a snapshot that `soil_state` reads.
+template <int Dim>
 Snapshot read_snapshot(const ResultsReader& results, std::size_t index) {
   const bool moves = results.scene().scene.moves();
   Snapshot snapshot;
@@ -77,8 +78,9 @@ Snapshot read_snapshot(const ResultsReader& results, std::size_t index) {
     snapshot.solid.push_back(results.field(index, "solid", name));
   }
   if (!moves) return snapshot;
-  for (const Vector<2>& x : results.point_positions(index, "solid")) {
+  for (const Vector<Dim>& x : results.point_positions<Dim>(index, "solid")) {
     snapshot.solid_positions.insert(snapshot.solid_positions.end(), {x[0], x[1], 0.0});
+    if constexpr (Dim == 3) snapshot.solid_positions.back() = x[2];
   }
   return snapshot;
 }
@@ -357,7 +359,7 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
     const ResultsReader results(options.state);
     refuse_other_soil(c, results);
     for (const std::size_t index : chosen_snapshots(results, options.time)) {
-      add(read_snapshot(results, index),
+      add(read_snapshot<Dim>(results, index),
           options.state + " at t = " + shown_number(results.times()[index]) + " s");
     }
   }
@@ -371,5 +373,6 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
 }
 
 template void run_strength_reduction(const Case<2>&, const StrengthReductionOptions&);
+template void run_strength_reduction(const Case<3>&, const StrengthReductionOptions&);
 
 }  // namespace suffuse

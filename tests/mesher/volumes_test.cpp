@@ -145,10 +145,12 @@ TEST(Box, RefusesWhatOnlyTwoDimensionsHave) {
   EXPECT_NE(refused({}, "[[output.section]]\nfrom = [0, 0, 0]\nto = [0, 0, 1]\n")
                 .find("output.section: got a section in three dimensions; expected no such entry"),
             std::string::npos);
-  EXPECT_NE(refused({"gravity=[0.0, 0.0, -9.81]", "initial.water_level=1.0"},
-                    "[soil.specimen.skeleton]\nlaw = \"elastic\"\nyoung = 1e7\npoisson = 0.3\n")
-                .find("a skeleton that moves, in three dimensions; expected no such table"),
-            std::string::npos);
+  EXPECT_NE(
+      refused({"gravity=[0.0, 0.0, -9.81]", "initial.water_level=1.0", "formulation=double-point"},
+              "[soil.specimen.skeleton]\nlaw = \"elastic\"\nyoung = 1e7\npoisson = 0.3\n")
+          .find("formulation: got \"double-point\" with a skeleton that moves, in three "
+                "dimensions; expected \"single-point\""),
+      std::string::npos);
   EXPECT_EQ(
       refused({"mesh.size=1e-4"}),
       "--set mesh.size=1e-4: mesh.size: got 0.0001; expected at least 0.00531329, which makes "
