@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "box_mesh.hpp"
-#include "moving_soil.hpp"
+#include "moving_space.hpp"
 #include "physics/skeleton/soil_element.hpp"
 #include "reference_table.hpp"
 
@@ -15,70 +14,10 @@ namespace suffuse {
 namespace moving_space_test {
 
 using model::clean_pressure_on;
-using model::fixed_on;
 using model::missing_fines;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/// A case of tetrahedra, its plan and the model that runs it.
-class SpaceRun {
- public:
-  SpaceRun(Mesh<3> mesh, Scene scene, int threads = 1)
-      : case_(make(std::move(mesh), std::move(scene))),
-        plan_(make_plan(case_, {.threads = threads})),
-        model_(case_, plan_) {}
-
-  void run_to(double time) {
-    while (model_.time() < time) {
-      model_.advance(time);
-      const LedgerRow row = model_.ledger();
-      worst_residual_ =
-          std::max({worst_residual_, std::abs(row.residual_water), std::abs(row.residual_grains)});
-    }
-  }
-  [[nodiscard]] SinglePoint<3>& model() { return model_; }
-  [[nodiscard]] HistoryRow history() const { return model_.history_row(model_.flow_state()); }
-  [[nodiscard]] Snapshot snapshot() const { return model_.snapshot(model_.flow_state()); }
-  [[nodiscard]] double worst_residual() const { return worst_residual_; }
-
- private:
-  static Case<3> make(Mesh<3> mesh, Scene scene) {
-    Case<3> c;
-    c.mesh = std::move(mesh);
-    c.document.path = "model.toml";
-    c.document.scene = std::move(scene);
-    complete_for_mesh(c.document, 3);
-    c.solid_points = seed_solid_points(c.mesh, c.document.scene);
-    return c;
-  }
-
-  Case<3> case_;
-  Plan plan_;
-  SinglePoint<3> model_;
-  double worst_residual_ = 0.0;
-};
-
-/// The sides are smooth, so that the soil moves as in a plane.
-Scene slab_scene() {
-  Scene scene = model::paper_scene();
-  scene.gravity = {0.0, 0.0, -9.81};
-  scene.liquid.bulk_modulus = infinite;
-  scene.time.scheme = FlowScheme::implicit_mixed;
-  for (const char* side : {"left", "right", "front", "back"}) {
-    scene.boundaries.push_back(fixed_on(side, Fixing::normal));
-  }
-  scene.boundaries.push_back(fixed_on("bottom", Fixing::both));
-  return scene;
-}
-
-/// Elements whose centroid fulfils `holds` are soil, the others free water.
-Mesh<3> under_water(Mesh<3> mesh, const std::function<bool(const Vector<3>&)>& holds) {
-  mesh.region_names = {"specimen", "free_above"};
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    mesh.element_region[e] = holds(element_centroid(mesh, e)) ? 0 : 1;
-  }
-  return mesh;
-}
+using model::slab_of_bank;
+using model::slab_scene;
+using model::SpaceRun;
 
 double pressure_at(SpaceRun& run, double z) {
   const Grid<3>& grid = run.model().grid();
@@ -160,35 +99,10 @@ TEST(SpaceConsolidation, FollowsTerzaghi) {
   EXPECT_LT(fine.pressure, 0.4 * coarse.pressure);
 }
 
-/// A bank of 1 m with a slope of 45 degrees, along diagonals of the cells, that loses its strength
-/// with its fines.
-SpaceRun bank(int threads = 1, int in_metre = 4) {
-  Scene scene = slab_scene();
-  scene.water_level = 1.25;
-  scene.time.end = 12.0;
-  scene.time.failure = AtFailure::follow;
-  scene.boundaries.push_back(clean_pressure_on("top", 0.0));
-  Soil& soil = scene.soils[0];
-  soil.conductivity = 1e-2;
-  soil.skeleton = model::elastic_soil(2e6, 0.3);
-  soil.skeleton.law = skeleton_law("mohr-coulomb");
-  soil.skeleton.friction = FinesFunction({{1.0, 33.0}, {0.0, 25.0}});
-  soil.skeleton.cohesion = FinesFunction({{1.0, 1.5e3}, {0.0, 0.0}});
-  soil.erosion.law = erosion_law("constant");
-  soil.erosion.rate = 0.01;
-  const auto is_soil = [](const Vector<3>& x) {
-    return x[2] < 0.25 || (x[2] < 1.0 && x[2] < x[0] - 2.0);
-  };
-  return {
-      under_water(model::box_mesh({4 * in_metre, 1, 5 * in_metre / 4}, {4.0, 1.0 / in_metre, 1.25}),
-                  is_soil),
-      scene, threads};
-}
-
 /// In the plane elements of 0.25 m fail at 7.4 to 8.3 s, as they are arranged, and of 0.125 m
 /// at 7.2 to 7.5 s.
 TEST(SpaceBank, LosesItsFinesFailsAndRunsOutUnderWater) {
-  SpaceRun run = bank();
+  SpaceRun run = slab_of_bank();
   const LedgerRow start = run.model().ledger();
   run.run_to(7.0);
   EXPECT_EQ(run.history().failure_time, 0.0);
@@ -211,13 +125,13 @@ TEST(SpaceBank, LosesItsFinesFailsAndRunsOutUnderWater) {
 TEST(SpaceBank, GoesOnFromWithinItsSlide) {
   constexpr double within = 8.8;
   constexpr double later = 8.9;
-  SpaceRun one = bank();
+  SpaceRun one = slab_of_bank();
   one.run_to(within);
   ASSERT_TRUE(one.model().solid().has_inertia());
   StateArchive kept;
   one.model().archive(kept);
   one.run_to(later);
-  SpaceRun resumed = bank(2);
+  SpaceRun resumed = slab_of_bank(2);
   StateArchive given(kept.finish());
   resumed.model().archive(given);
   resumed.run_to(later);
