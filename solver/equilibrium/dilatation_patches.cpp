@@ -31,7 +31,8 @@ std::vector<char> quarters(const Grid<2>& grid) {
 }
 
 std::vector<char> quarters(const Grid<3>& grid) {
-  return std::vector<char>(grid.mesh.elements.size(), 0);
+  std::vector<char> none(grid.mesh.elements.size(), 0);
+  return none;
 }
 
 /// Joins the elements of a mesh to patches.

@@ -15,15 +15,15 @@ SharedDilatation<Dim>::SharedDilatation(const Grid<Dim>& grid, const std::vector
     if (weight[e] > 0.0 && patch[e] >= 0) elements[patch[e]].push_back(static_cast<int>(e));
   }
   share_.assign(weight.size(), 0.0);
-  for (std::vector<int>& of_patch : elements) {
-    if (of_patch.size() > 1) add_patch(grid.mesh, weight, std::move(of_patch));
+  for (const std::vector<int>& of_patch : elements) {
+    if (of_patch.size() > 1) add_patch(grid.mesh, weight, of_patch);
   }
   if (acts()) tangent_.resize(weight.size());
 }
 
 template <int Dim>
 void SharedDilatation<Dim>::add_patch(const Mesh<Dim>& mesh, const std::vector<double>& weight,
-                                      std::vector<int> elements) {
+                                      const std::vector<int>& elements) {
   Patch patch;
   double sum = 0.0;
   for (const int e : elements) {
@@ -37,7 +37,7 @@ void SharedDilatation<Dim>::add_patch(const Mesh<Dim>& mesh, const std::vector<d
     patch.places.push_back(places);
   }
   for (const int e : elements) share_[e] = weight[e] / sum;
-  patch.elements = std::move(elements);
+  patch.elements = elements;
   patches_.push_back(std::move(patch));
 }
 

@@ -67,7 +67,7 @@ class SharedDilatation {
   };
 
   void add_patch(const Mesh<Dim>& mesh, const std::vector<double>& weight,
-                 std::vector<int> elements);
+                 const std::vector<int>& elements);
 
   std::vector<Patch> patches_;    ///< of two elements or more
   std::vector<double> share_;     ///< per element: w_e / sum w in its patch; 0: not shared

@@ -14,7 +14,7 @@ constexpr int load_parts = 20;
 /// Soil fails if it moves by this share of the size of the model, or does not come to rest within
 /// this number of iterations in all.
 constexpr double far_share = 0.1;
-constexpr int max_iterations = 100;
+constexpr int max_slow_iterations = 100;
 /// Largest Poisson's ratio, as elastic soil must be compressible.
 constexpr double max_poisson = 0.45;
 
@@ -64,7 +64,7 @@ StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton
                           SolidPoints<Dim>& points, int threads) {
   SettlingLimits limits{.tolerance = NewtonLimits().tolerance,
                         .far = far_share * extent(grid.mesh).norm(),
-                        .max_iterations = max_iterations};
+                        .max_iterations = max_slow_iterations};
   StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);
   while (limits.max_iterations > 0) {
     if (!step.solve(loads.forces, loads.pressure)) {

@@ -5,7 +5,9 @@
 
 #include "files/number_text.hpp"
 #include "solver/solid_model.hpp"
+#include "stress/random_soil.hpp"
 #include "stress/scenario.hpp"
+#include "stress/space_mesh.hpp"
 #include "stress/stress_mesh.hpp"
 
 namespace suffuse::stress {
@@ -13,6 +15,7 @@ namespace {
 
 constexpr unsigned seeds = 100;
 constexpr unsigned soft_seeds = 60;
+constexpr unsigned space_seeds = 100;
 
 /// A constant number, or one that falls with the fines.
 std::string falling(Random& random, double value, double share) {
@@ -133,7 +136,82 @@ Mesh<2> two_soil_column(unsigned seed) {
   return mesh;
 }
 
+/// Soils of a mesh in space that move, with conductivities up to this one, m/s.
+Changes space_soils(Random& random, const Mesh<3>& mesh, double stiffness, double conductivity,
+                    bool drains) {
+  Changes changes;
+  for (const std::string& name : mesh.region_names) {
+    const std::string soil = "soil." + name;
+    if (name != "specimen") changes.push_back(soil + ".like=specimen");
+    changes.push_back(soil +
+                      ".conductivity=" + number_text(conductivity * random.decades(1e-3, 1.0)));
+    changes.push_back(soil + ".skeleton=" +
+                      skeleton(random, stiffness * random.decades(1.0, 30.0), random.chance(0.8)));
+    if (!drains) continue;
+    changes.push_back(soil + ".retention={model = \"van-genuchten\", alpha = " +
+                      number_text(random.between(1.0, 4.0)) +
+                      ", n = " + number_text(random.between(1.5, 3.0)) +
+                      ", residual_saturation = " + number_text(random.between(0.0, 0.2)) + "}");
+  }
+  return changes;
+}
+
+/// A dam of tetrahedra under a flood, or a column of them under loads that come and go. Its front
+/// and its back are smooth.
+Changes space_motion_changes(unsigned seed, bool dam, double end) {
+  Random random(seed + 18000);
+  const Mesh<3> mesh = space_mesh(seed, dam ? SpaceShape::dam : SpaceShape::column, Cut::none);
+  const double stiffness = random.decades(3e5, 3e8);
+  const double permeability = 1000.0 * 9.81 * random.decades(1e-2, 1e2) / (stiffness * end);
+  Changes changes =
+      space_soils(random, mesh, stiffness, dam ? random.decades(1e-5, 1e-2) : permeability, dam);
+  std::string boundaries =
+      "{on = \"bottom\", fix = \"both\"}, {on = \"front\", fix = \"normal\"}, "
+      "{on = \"back\", fix = \"normal\"}";
+  if (dam) {
+    boundaries += ", {on = \"left\", concentration = 0, head = " + flood(random, end, 0.9, false) +
+                  "}, {on = \"right\", " +
+                  (random.chance(0.5) ? "seepage_face = true}" : "head = 0.1, concentration = 0}");
+    changes.emplace_back("gravity=[0, 0, -9.81]");
+    changes.emplace_back("initial.water_level=0.1");
+    changes.emplace_back("initial.stress=gravity");
+  } else {
+    const double load = random.decades(1e-4, 0.3) * std::min(stiffness, 1e5);
+    boundaries +=
+        ", {on = \"left\", fix = \"normal\"}, {on = \"right\", fix = \"normal\"}, "
+        "{on = \"top\", pressure = 0, concentration = 0, traction = [[0, 0, 0, 0], [" +
+        number_text(random.decades(1e-3, 0.9) * end) + ", 0, 0, " + number_text(-load) + "]]}";
+  }
+  changes.push_back("boundary=[" + boundaries + "]");
+  changes.emplace_back(random.chance(0.5) ? "liquid.bulk_modulus=2e9" : "liquid.bulk_modulus=inf");
+  if (random.chance(0.5)) changes.emplace_back("time.failure=follow");
+  return changes;
+}
+
 }  // namespace
+
+Sweep space_motion_sweep() {
+  Sweep sweep{
+      "space-motion", "soils of tetrahedra that move: dams under floods, columns under loads", {}};
+  for (unsigned seed = 1; seed <= space_seeds; ++seed) {
+    const bool dam = seed % 2 == 0;
+    Scenario scenario;
+    scenario.scheme = Scheme::sp_implicit;
+    scenario.parameters = dam ? "dam" : "column";
+    scenario.seed = seed;
+    scenario.end = Random(seed + 19000).decades(1e3, 1e6);
+    scenario.mesh = [seed, dam] {
+      return space_mesh(seed, dam ? SpaceShape::dam : SpaceShape::column, Cut::none);
+    };
+    scenario.changes = [seed, dam](const Span& span) {
+      return space_motion_changes(seed, dam, span.end);
+    };
+    // Weak soil has no equilibrium, or leaves the mesh, and the run says so.
+    scenario.expected = Expected::either;
+    sweep.scenarios.push_back(std::move(scenario));
+  }
+  return sweep;
+}
 
 Sweep motion_sweep() {
   Sweep sweep{"motion", "soils that move: levees under floods, columns under loads; erosion", {}};

@@ -94,6 +94,7 @@ Changes levee_changes(unsigned seed, double end);
 
 /// Soils that move: levees under floods, and columns that consolidate.
 Sweep motion_sweep();
+Sweep space_motion_sweep();
 
 /// Every way in which soils give fines away and catch them.
 Sweep soils_sweep();

@@ -11,7 +11,8 @@ std::vector<Sweep> all_sweeps() {
                                   water_case_sweeps(), soil_case_sweeps()}) {
     std::ranges::move(some, std::back_inserter(result));
   }
-  for (Sweep (*const one)() : {seepage_sweep, soils_sweep, motion_sweep, space_sweep}) {
+  for (Sweep (*const one)() :
+       {seepage_sweep, soils_sweep, motion_sweep, space_motion_sweep, space_sweep}) {
     result.push_back(one());
   }
   return result;
