@@ -21,7 +21,6 @@ class SkeletonChecks : private SceneCheckBase {
     if (!scene_.moves()) return;
     check_scheme();
     check_inertia();
-    check_others();
   }
 
  private:
@@ -118,15 +117,6 @@ class SkeletonChecks : private SceneCheckBase {
     if (!scene_.time.inertia.value_or(false)) return;
     report("time.inertia", "true beside a skeleton that moves",
            "false, or no such key: soil that fails has inertia, and the liquid with it");
-  }
-
-  /// Refuses what cannot be computed with a moving skeleton: a mesh with slits.
-  void check_others() const {
-    const std::string expected = "none beside a skeleton that moves, or law = \"rigid\"";
-    if (!scene_.walls.empty()) report("wall[0].on", "a wall", expected);
-    for (const BoundaryCondition& boundary : scene_.boundaries) {
-      if (boundary.key.starts_with("well[")) report(boundary.key + ".on", "a well", expected);
-    }
   }
 };
 

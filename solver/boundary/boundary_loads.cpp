@@ -19,6 +19,16 @@ std::vector<int> faces_of(const Grid<Dim>& grid, const std::string& boundary) {
   return faces;
 }
 
+/// Boundaries of what stands still in the soil, which slides along it.
+std::vector<std::string> walls_and_wells(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Wall& wall : scene.walls) names.push_back(wall.on);
+  for (const BoundaryCondition& boundary : scene.boundaries) {
+    if (boundary.key.starts_with("well[")) names.push_back(boundary.on);
+  }
+  return names;
+}
+
 /// Pressure of the outer water at a place, Pa; 0 above its level.
 template <int Dim>
 double outside_pressure(const Scene& scene, double head, const Vector<Dim>& x) {
@@ -35,6 +45,9 @@ Supports<Dim> scene_supports(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
     if (boundary.fix == Fixing::none) continue;
     const Support how = boundary.fix == Fixing::both ? Support::both : Support::normal;
     for (const int f : faces_of(grid, boundary.on)) on_face[f] = how;
+  }
+  for (const std::string& inside : walls_and_wells(soils.scene())) {
+    for (const int f : faces_of(grid, inside)) on_face[f] = Support::normal;
   }
   Supports<Dim> supports(grid, on_face);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {

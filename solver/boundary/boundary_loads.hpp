@@ -9,7 +9,8 @@
 
 namespace suffuse {
 
-/// Supports of the scene: boundaries with `fix`, and all nodes of soil with a rigid skeleton.
+/// Supports of the scene: boundaries with `fix`, both sides of walls and wells along their normal,
+/// and all nodes of soil with a rigid skeleton.
 template <int Dim>
 Supports<Dim> scene_supports(const Grid<Dim>& grid, const SoilMap<Dim>& soils);
 

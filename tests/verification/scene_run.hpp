@@ -48,6 +48,7 @@ class SceneRun {
   [[nodiscard]] const Case<Dim>& input() const { return case_; }
   [[nodiscard]] LedgerRow ledger() const { return model_->ledger(); }
   [[nodiscard]] HistoryRow history() const { return model_->history_row(model_->flow_state()); }
+  [[nodiscard]] Snapshot snapshot() const { return model_->snapshot(model_->flow_state()); }
   [[nodiscard]] std::vector<ProbeRow> probes() const {
     return model_->probe_rows(model_->flow_state());
   }

@@ -1,0 +1,27 @@
+// A box 2 m wide and 1 m high with a line down its middle, in an upper and a lower half.
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {2, 0, 0};
+Point(4) = {2, 1, 0};
+Point(5) = {1, 1, 0};
+Point(6) = {0, 1, 0};
+Point(7) = {1, 0.5, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Line(7) = {5, 7};
+Line(8) = {7, 2};
+Curve Loop(1) = {1, -8, -7, 5, 6};
+Curve Loop(2) = {2, 3, 4, 7, 8};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Physical Surface("specimen") = {1, 2};
+Physical Curve("bottom") = {1, 2};
+Physical Curve("sides") = {3, 6};
+Physical Curve("top_left") = {5};
+Physical Curve("top_right") = {4};
+Physical Curve("upper") = {7};
+Physical Curve("lower") = {8};
