@@ -78,6 +78,12 @@ class InnerCuts {
     const NamedNode* point = find_point(name);
     if (!point) return;
     key_of_[name] = key;
+    if (document_.scene.moves()) {
+      report(key, '"' + name + "\", a point, with a skeleton that moves",
+             "a " + MeshWords<Dim>::boundary +
+                 std::string(" inside the mesh, along which soil can slide"));
+      return;
+    }
     if constexpr (Dim == 3) {
       report(key, '"' + name + "\", a point", "a surface inside the mesh");
     } else {

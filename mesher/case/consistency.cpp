@@ -106,7 +106,7 @@ class SceneCheck {
     const std::string only = " in two dimensions only";
     if (scene.moves() && scene.formulation == Formulation::double_point) {
       report("formulation", "\"double-point\" with a skeleton that moves, in three dimensions",
-             "\"single-point\": soil moves with double points" + only);
+             "\"single-point\", or a rigid skeleton: double-point runs move soil" + only);
     }
     if (scene.time.scheme == FlowScheme::explicit_nodal) {
       report("time.scheme", "\"explicit\" in three dimensions",

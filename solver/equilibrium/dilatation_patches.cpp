@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <functional>
+#include <utility>
 
 namespace suffuse {
 namespace {
 
-/// Faces whose areas differ by less than this share count as equal.
-constexpr double equal_areas = 1e-4;
+/// Sides count as equally long if they differ by less than this share.
+constexpr double equal_lengths = 1e-4;
 constexpr int tetrahedra_of_patch = 4;
 
-/// Per element: whether it is a quarter of a quadrangle: four triangles around a node inside.
+/// Per element: whether it is one of four triangles around an inner node.
 std::vector<char> quarters(const Grid<2>& grid) {
   const Mesh<2>& mesh = grid.mesh;
   std::vector<int> around(mesh.node_count(), 0);
@@ -40,9 +41,9 @@ template <int Dim>
 class Joining {
  public:
   explicit Joining(const Grid<Dim>& grid)
-      : grid_(grid), crossed_(quarters(grid)), patch_(crossed_.size(), -1) {}
+      : grid_(grid), is_quarter_(quarters(grid)), patch_(is_quarter_.size(), -1) {}
 
-  std::vector<int> find() {
+  std::vector<int> make_patches() {
     if (Dim == 2) {
       join_pairs();
     } else {
@@ -51,47 +52,64 @@ class Joining {
       }
     }
     while (join_what_is_left()) continue;
+    // Regions of one or two elements have no patch yet.
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      if (!is_free(e)) continue;
+      add_to_patch(e, static_cast<int>(size_.size()));
+      while (join_what_is_left()) continue;
+    }
     return std::move(patch_);
   }
 
  private:
-  [[nodiscard]] bool is_free(int e) const { return crossed_[e] == 0 && patch_[e] < 0; }
+  [[nodiscard]] bool is_free(int e) const { return is_quarter_[e] == 0 && patch_[e] < 0; }
 
   /// Element beyond a side of `e` that may be in the same patch, or -1.
-  [[nodiscard]] int beyond(int e, int side) const {
+  [[nodiscard]] int neighbour(int e, int side) const {
     const int f = grid_.element_face[e][side];
     if (grid_.is_outer(f)) return -1;
     const int other = grid_.face_left[f] == e ? grid_.face_right[f] : grid_.face_left[f];
     const std::vector<int>& region = grid_.mesh.element_region;
-    return crossed_[other] == 0 && region[other] == region[e] ? other : -1;
+    return is_quarter_[other] == 0 && region[other] == region[e] ? other : -1;
   }
 
-  void put(int e, int patch) {
+  void add_to_patch(int e, int patch) {
     patch_[e] = patch;
     size_.resize(std::max<std::size_t>(size_.size(), patch + 1), 0);
     ++size_[patch];
   }
 
   void join_pairs() {
-    std::vector<int> faces;
-    for (int f = 0; f < grid_.face_count(); ++f) {
-      if (!grid_.is_outer(f)) faces.push_back(f);
-    }
-    std::ranges::stable_sort(faces,
-                             [&](int a, int b) { return length_class(a) > length_class(b); });
-    for (const int f : faces) {
+    for (const int f : inner_faces_by_length()) {
       const int left = grid_.face_left[f];
       const int right = grid_.face_right[f];
       if (!is_free(left) || !is_free(right)) continue;
-      if (beyond(left, grid_.side_of(left, f)) != right) continue;
+      if (neighbour(left, grid_.side_of(left, f)) != right) continue;
       const auto patch = static_cast<int>(size_.size());
-      put(left, patch);
-      put(right, patch);
+      add_to_patch(left, patch);
+      add_to_patch(right, patch);
     }
   }
-  /// Logarithm of a face's area in steps of `equal_areas`: round-off does not decide.
-  [[nodiscard]] long length_class(int f) const {
-    return std::lround(std::log(grid_.face_normal[f].norm()) / equal_areas);
+  /// Faces between elements that may share a patch, longest first; those of equal length in the
+  /// order of their numbers, so that round-off does not decide.
+  [[nodiscard]] std::vector<int> inner_faces_by_length() const {
+    std::vector<std::pair<double, int>> faces;  // with their lengths
+    for (int f = 0; f < grid_.face_count(); ++f) {
+      if (grid_.is_outer(f) || is_quarter_[grid_.face_left[f]] != 0) continue;
+      faces.emplace_back(grid_.face_normal[f].norm(), f);
+    }
+    std::ranges::sort(faces, std::greater());
+    std::vector<int> result;
+    result.reserve(faces.size());
+    for (std::size_t k = 0; k < faces.size();) {
+      const double longest = faces[k].first;
+      const std::size_t from = result.size();
+      while (k < faces.size() && faces[k].first > (1.0 - equal_lengths) * longest) {
+        result.push_back(faces[k++].second);
+      }
+      std::ranges::sort(result.begin() + static_cast<std::ptrdiff_t>(from), result.end());
+    }
+    return result;
   }
 
   void grow_from(int seed) {
@@ -107,16 +125,16 @@ class Joining {
     }
     if (2 * static_cast<int>(elements.size()) <= tetrahedra_of_patch) return;
     const auto patch = static_cast<int>(size_.size());
-    for (const int e : elements) put(e, patch);
+    for (const int e : elements) add_to_patch(e, patch);
   }
-  /// Free element beside a growing patch that has most nodes in common with it, or -1.
+  /// Free element next to a growing patch that shares most nodes with it, or -1.
   [[nodiscard]] int nearest_of(const std::vector<int>& elements,
                                const std::vector<int>& nodes) const {
     int best = -1;
     long most = 0;
     for (const int e : elements) {
       for (int side = 0; side <= Dim; ++side) {
-        const int other = beyond(e, side);
+        const int other = neighbour(e, side);
         if (other < 0 || !is_free(other) || std::ranges::find(elements, other) != elements.end()) {
           continue;
         }
@@ -138,19 +156,19 @@ class Joining {
       if (!is_free(e)) continue;
       int best = -1;
       for (int side = 0; side <= Dim; ++side) {
-        const int other = beyond(e, side);
+        const int other = neighbour(e, side);
         if (other < 0 || patch_[other] < 0) continue;
         if (best < 0 || size_[patch_[other]] < size_[best]) best = patch_[other];
       }
       if (best < 0) continue;
-      put(e, best);
+      add_to_patch(e, best);
       joined = true;
     }
     return joined;
   }
 
   const Grid<Dim>& grid_;
-  std::vector<char> crossed_;
+  std::vector<char> is_quarter_;
   std::vector<int> patch_;
   std::vector<int> size_;  ///< per patch
 };
@@ -159,7 +177,7 @@ class Joining {
 
 template <int Dim>
 std::vector<int> dilatation_patches(const Grid<Dim>& grid) {
-  return Joining<Dim>(grid).find();
+  return Joining<Dim>(grid).make_patches();
 }
 
 template std::vector<int> dilatation_patches(const Grid<2>&);

@@ -8,10 +8,11 @@
 
 namespace suffuse {
 
-/// Patch of each element, -1 for one by itself. Triangles are joined in pairs, across their longest
-/// sides first; tetrahedra in fours, each next one where it has most nodes in common with those of
-/// its patch. What is left joins the smallest patch beside it. Elements of different regions are in
-/// different patches, and quarters of quadrangles, as of crossed meshes, in none.
+/// Patch of each element, -1: the element is in no patch. Triangles are joined in pairs, across
+/// their longest sides first. A patch of tetrahedra grows to four, each time by the neighbour that
+/// shares most nodes with it. An element that is left over joins the smallest patch next to it.
+/// Elements of different regions are in different patches. The four triangles of a crossed
+/// quadrangle belong to no patch.
 template <int Dim>
 std::vector<int> dilatation_patches(const Grid<Dim>& grid);
 

@@ -32,15 +32,16 @@ std::vector<char> nodes_of(const Mesh<Dim>& mesh, const std::vector<int>& elemen
 
 /// Elastic soil of a higher Poisson's ratio is so stiff against changes of its volume that linear
 /// displacements lock.
-constexpr double most_compressible = 0.4;
+constexpr double least_locking_poisson = 0.4;
 
-/// Volumes of the soil, m3, of elements that lock if they do not share their dilatation; 0 else.
+/// Volumes of the soil, m3, of elements that lock if they do not share their dilatation; 0
+/// otherwise.
 template <int Dim>
 std::vector<double> locking_volumes(const SolidBody<Dim>& body, const Supports<Dim>& supports,
                                     std::vector<double> volume) {
   const auto locks = [&](int p) {
     const auto& [law, parameters] = body.skeleton[p];
-    return law->yields() || parameters.poisson > most_compressible;
+    return law->yields() || parameters.poisson > least_locking_poisson;
   };
   for (std::size_t k = 0; k < volume.size(); ++k) {
     const auto e = static_cast<int>(k);
@@ -162,8 +163,8 @@ std::vector<double> Equilibrium<Dim>::law_factors(const NodeVectors<Dim>& displa
   return result;
 }
 
-/// Sets stress and tangent of an element's laws. They are those of its forces, too, where its
-/// dilatation is its own.
+/// Sets stress and tangent of an element's laws. Where the element does not share its dilatation,
+/// they are also those of its forces.
 template <int Dim>
 void Equilibrium<Dim>::respond(bool with_tangents, int e) {
   Gradient f = Gradient::Identity() + moved_[e];
@@ -189,8 +190,8 @@ void Equilibrium<Dim>::respond(bool with_tangents, int e) {
 }
 
 /// With T the stress of the laws, Fm = (Jm/J)^(1/d) F and g = dF F^-1: dFm Fm^-1 = g + (theta - tr
-/// g)/d. The work T : dFm Fm^-1 of all elements is S : g with S = T + (mu - m) I, m = tr T/d, mu =
-/// J A^T (m/Jm). Columns are the derivatives along each component of dF, and by theta.
+/// g)/d. The work T : dFm Fm^-1 of all elements is S : g with S = T + (mu - m) I, m = tr T/d and
+/// mu = J_e w_e/(sum w) sum m/Jm.
 template <int Dim>
 void Equilibrium<Dim>::share_stress(double spread, bool with_tangents, int e) {
   const Gradient& stress = effective_[e];
@@ -199,7 +200,17 @@ void Equilibrium<Dim>::share_stress(double spread, bool with_tangents, int e) {
   const Gradient working = stress + (mu - mean) * Gradient::Identity();
   const Gradient to_first = inverse_[e].transpose();
   stress_[e] = soft_[e] * moved_[e] + working * to_first;
-  if (!with_tangents) return;
+  if (with_tangents) share_tangent(mu, working, e);
+  effective_[e] = working;
+}
+
+/// Sets the tangent of an element that shares its dilatation, from that of its laws. Columns are
+/// the derivatives along each component of dF, and by theta.
+template <int Dim>
+void Equilibrium<Dim>::share_tangent(double mu, const Gradient& working, int e) {
+  const Gradient& stress = effective_[e];
+  const double mean = stress.trace() / Dim;
+  const Gradient to_first = inverse_[e].transpose();
   const Tangent of_law = tangent_[e];
   const Gradient seen =
       (Gradient::Identity() + moved_[e]) * law_factor<Dim>(mean_ratio_[e], ratio_[e]);

@@ -96,9 +96,9 @@ class Equilibrium {
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
 
   /// Mean effective stress sigma' of an element with soil, after the displacement, Pa; tension is
-  /// positive. In two dimensions, the part in the plane.
+  /// positive. In two dimensions, the part in the plane. In a patch, the one that is in balance.
   [[nodiscard]] Gradient mean_stress(int element) const {
-    return effective_[element] / (soil_volume_[element] * mean_ratio_[element]);
+    return effective_[element] / (soil_volume_[element] * ratio_[element]);
   }
   /// Mean elastic parameters of an element with soil: Lame's first parameter and the shear modulus,
   /// Pa.
@@ -130,6 +130,7 @@ class Equilibrium {
   /// Sets the forces, and their tangent, of an element that shares its dilatation, with what
   /// `SharedDilatation::spread` gives it, Pa m3.
   void share_stress(double spread, bool with_tangents, int element);
+  void share_tangent(double mu, const Gradient& working, int element);
   void add_pressure(int element, bool with_tangents);
   [[nodiscard]] ElementMatrix element_matrix(int element, const Tangent& tangent) const;
   [[nodiscard]] Vector<Dim> inertia_force(int node) const {
@@ -158,7 +159,7 @@ class Equilibrium {
   std::vector<Gradient> stress_;     ///< V_e P per element, Pa m3
   std::vector<Gradient> effective_;  ///< V_e J sigma' per element, Pa m3
   std::vector<double> soil_volume_;  ///< per element, m3
-  std::vector<Tangent> tangent_;     ///< derivative of `stress_` by F, or of the law alone
+  std::vector<Tangent> tangent_;     ///< derivative of `stress_` by F
   Eigen::SparseMatrix<double> pattern_;
   /// Per element with points: index of each entry of its matrix in `pattern_`, or -1.
   std::vector<std::array<int, ElementMatrix::SizeAtCompileTime>> slots_;

@@ -76,8 +76,8 @@ void SharedDilatation<Dim>::add_pattern(const DisplacementUnknowns<Dim>& unknown
   }
 }
 
-/// Of a patch, the derivative is f r^T + r q^T: theta changes by r per displacement of its nodes,
-/// its forces by f per theta, and the sum of its mean stresses by q per displacement.
+/// The derivative of a patch's forces is f r^T + r q^T, where r is dtheta/du, f the derivative of
+/// the forces by theta, and q that of the sum of the mean stresses by u.
 template <int Dim>
 void SharedDilatation<Dim>::add_tangent(const DisplacementUnknowns<Dim>& unknowns,
                                         const std::vector<double>& mean_ratio,

@@ -9,10 +9,10 @@
 
 namespace suffuse {
 
-/// Soil that keeps its volume, or changes it as its plastic flow demands, is too stiff on triangles
-/// and tetrahedra with linear displacements: there are more elements, each with a condition on its
-/// volume, than displacements. So neighbours are joined to patches, two triangles or four
-/// tetrahedra in most, and laws see the volume ratio of the patch,
+/// Soil that keeps its volume, or whose plastic flow prescribes its change of volume, is too stiff
+/// on triangles and tetrahedra with linear displacements: there are more elements, each with a
+/// condition on its volume, than displacements. So neighbours are joined to patches, most of two
+/// triangles or of four tetrahedra, and laws see the volume ratio of the patch,
 ///
 ///     Jm = sum_e w_e J_e / sum_e w_e,
 ///
@@ -23,7 +23,7 @@ template <int Dim>
 class SharedDilatation {
  public:
   SharedDilatation() = default;
-  /// \param weight  per element: the volume of its soil, m3; 0: it takes no part
+  /// \param weight  per element: the volume of its soil, m3; 0: the element does not share
   SharedDilatation(const Grid<Dim>& grid, const std::vector<double>& weight);
 
   /// Whether any element shares its dilatation.
@@ -36,14 +36,13 @@ class SharedDilatation {
   /// \param mean  per element: m/Jm, Pa m3
   [[nodiscard]] std::vector<double> spread(const std::vector<double>& mean) const;
 
-  /// Derivatives of an element, with dtheta = dJm/Jm: of J and of the mean stress m by the
-  /// displacements of its nodes, of the forces on its nodes by theta, and of m by theta, less m.
+  /// Derivatives of an element by the displacements u of its nodes and by theta, dtheta = dJm/Jm.
   struct Tangent {
     using OfNodes = Eigen::Matrix<double, Dim, Dim + 1>;
-    OfNodes of_ratio;
-    OfNodes of_mean;
-    OfNodes of_forces;
-    double of_both = 0.0;
+    OfNodes of_ratio;      ///< dJ/du, 1/m
+    OfNodes of_mean;       ///< dm/du of the mean stress m, Pa m2
+    OfNodes of_forces;     ///< derivative of the forces on its nodes by theta, N
+    double of_both = 0.0;  ///< dm/dtheta - m, Pa m3
   };
   /// Sets the derivatives of an element that shares its dilatation.
   void set_tangent(int element, const Tangent& tangent) { tangent_[element] = tangent; }

@@ -18,6 +18,7 @@ void refuse_compressed(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
     for (int a = 0; a <= Dim; ++a) {
       f += step.displacement[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
     }
+    if (!step.law_factors.empty()) f *= step.law_factors[e];
     const double before = 1.0 - step.solid_volume[p] / points.volume[p];
     const double after = 1.0 - step.solid_volume[p] / (points.volume[p] * f.determinant());
     // Pores closed by deposits do not count: the step does not compress them.

@@ -18,6 +18,7 @@ struct SoilStep {
   std::vector<double> solid_volume;             ///< per point, m3
   const std::vector<double>& initial_porosity;  ///< per point
   const NodeVectors<Dim>& displacement;         ///< over the step, m
+  std::vector<double> law_factors;              ///< `Equilibrium::law_factors` of it
   double end;                                   ///< s
 };
 

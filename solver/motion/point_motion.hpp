@@ -15,7 +15,7 @@ namespace suffuse {
 template <int Dim>
 void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
                  const NodeVectors<Dim>& displacement, SolidPoints<Dim>& points, int threads,
-                 const std::vector<double>& law_factors = {});
+                 const std::vector<double>& law_factors);
 
 /// Largest displacement of an element's node over the smallest height of the element, among
 /// elements with points: a step should stay below 1/4.

@@ -87,7 +87,7 @@ TEST(Plausibility, UnusualNumbersAreNamedWithTheirPlace) {
                      "[0.0, -9.81] is usual"});
 }
 
-/// It shares its dilatation there.
+/// Soil that yields shares its dilatation on such triangles.
 TEST(Plausibility, SoilThatYieldsMayHaveAnyTriangles) {
   EXPECT_EQ(of_keys({"time.scheme=implicit", "soil.specimen.skeleton.law=von-mises",
                      "soil.specimen.skeleton.young=1e7", "soil.specimen.skeleton.poisson=0.3",

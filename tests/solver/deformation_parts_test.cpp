@@ -403,7 +403,7 @@ TEST(PointMotion, RefusesAPointThatLeavesTheMeshAndKeepsTheOthers) {
   const std::vector<Vector<2>> before = m.points.position;
   NodeVectors<2> displacement(m.mesh.node_count(), Vector<2>(0.0, 0.45));
   try {
-    move_points(m.grid, m.skeleton, displacement, m.points, 1);
+    move_points(m.grid, m.skeleton, displacement, m.points, 1, {});
     FAIL();
   } catch (const NumericalError& error) {
     EXPECT_STREQ(
@@ -419,7 +419,7 @@ TEST(PointMotion, SoilMayRiseALittleOverTheBorder) {
   PlaneModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
   const std::vector<Vector<2>> before = m.points.position;
   move_points(m.grid, m.skeleton, NodeVectors<2>(m.mesh.node_count(), Vector<2>(0.0, 0.4)),
-              m.points, 1);
+              m.points, 1, {});
   for (int p = 0; p < m.points.size(); ++p) {
     const Vector<2>& now = m.points.position[p];
     EXPECT_NEAR((now - before[p] - Vector<2>(0.0, 0.4)).norm(), 0.0, 1e-15);

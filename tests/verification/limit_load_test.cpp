@@ -18,8 +18,8 @@ TEST(Footing, CarriesThatUnderVonMisesLawToo) {
   EXPECT_NEAR(limit_of_fine_meshes(footing, exact), exact, 0.02 * exact);
 }
 
-/// They lock unless elements share their dilatation: on triangles in rows 4 cells carried 7.19, on
-/// free ones 7.30.
+/// Such triangles lock unless elements share their dilatation: on triangles in rows 4 cells carried
+/// 7.19, on free ones 7.30.
 TEST(Footing, CarriesThatOnTrianglesInRowsAndOnFreeOnesToo) {
   const double exact = exact_cohesion_factor(0.0);
   const double crossed = limit_load({.cohesion = 1.0}, 4);

@@ -1,5 +1,5 @@
-/// Soil that moves in three dimensions: consolidation, a dry column that collapses, and a bank that
-/// loses its fines, fails and runs out, as slabs of tetrahedra.
+/// Soil that moves in three dimensions: consolidation, and a bank that loses its fines, fails and
+/// runs out, as slabs of tetrahedra.
 
 #include <gtest/gtest.h>
 
@@ -139,6 +139,7 @@ TEST(SpaceBank, GoesOnFromWithinItsSlide) {
   const Snapshot b = resumed.snapshot();
   EXPECT_EQ(a.solid_positions, b.solid_positions);
   for (std::size_t k = 0; k < a.cell.size(); ++k) EXPECT_EQ(a.cell[k].values, b.cell[k].values);
+  for (std::size_t k = 0; k < a.solid.size(); ++k) EXPECT_EQ(a.solid[k].values, b.solid[k].values);
 }
 
 }  // namespace moving_space_test

@@ -94,7 +94,7 @@ TEST(MovingWall, PartsSoilThatSettlesByItselfOnBothSides) {
 TEST(MovingWall, DoesNotHinderSoilThatSlidesAlongIt) {
   for (const char* inside :
        {"[[wall]]\non = \"upper\"\n", "[[wall]]\non = \"upper\"\nconductance = 1e-3\n",
-        "[[well]]\non = \"lower\"\nrate = 0.0\n"}) {
+        "[[well]]\non = \"lower\"\nrate = 0.0\n", "[[well]]\non = \"lower\"\nhead = 3.0\n"}) {
     const Settled found = settled(3e3, 3e3, inside);
     EXPECT_NEAR(found.left, 1.0, 1e-3) << inside;
     EXPECT_NEAR(found.right, 1.0, 1e-3) << inside;
