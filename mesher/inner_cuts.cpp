@@ -79,9 +79,9 @@ class InnerCuts {
     if (!point) return;
     key_of_[name] = key;
     if (document_.scene.moves()) {
+      const std::string boundary = MeshWords<Dim>::boundary;
       report(key, '"' + name + "\", a point, with a skeleton that moves",
-             "a " + MeshWords<Dim>::boundary +
-                 std::string(" inside the mesh, along which soil can slide"));
+             "a " + boundary + " inside the mesh, along which the soil can slide");
       return;
     }
     if constexpr (Dim == 3) {
