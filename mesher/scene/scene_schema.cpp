@@ -87,11 +87,13 @@ const std::vector<SceneSection>& scene_sections() {
        "last; two pairs at nearly the same time, such as 5 and 5.001 s, make a jump."},
       {"wall[]", "[[wall]]",
        "Walls without thickness, such as sheet piles, on named curves inside the mesh: neither "
-       "water nor grains get through, but for what the conductance says."},
+       "water nor grains get through, but for what the conductance says. They stand still: soil "
+       "that "
+       "moves slides along them."},
       {"well[]", "[[well]]",
        "Wells and drains on named curves or points inside the mesh, each with one of `head`, "
-       "`rate` "
-       "and `seepage_face`. Values may change in time as those of boundaries."},
+       "`rate` and `seepage_face`. Values may change in time as those of boundaries. They stand "
+       "still: soil that moves slides along them, and those on a point are refused beside it."},
       {"initial", "[initial]", "State at the start."},
       {"flow", "[flow]", "Variants of the flow."},
       {"time", "[time]", "Time stepping."},
