@@ -34,7 +34,7 @@ class InnerCuts {
     }
     std::vector<const BoundaryCondition*> at_points;
     for (const BoundaryCondition& boundary : scene.boundaries) {
-      if (!boundary.key.starts_with("well")) continue;
+      if (!boundary.is_well()) continue;
       if (!cut_curve(boundary.key + ".on", boundary.on)) at_points.push_back(&boundary);
     }
     for (const BoundaryCondition* well : at_points) cut_point(well->key + ".on", well->on);

@@ -197,7 +197,7 @@ class SceneCheck {
     std::map<std::array<int, Dim>, std::string> covered;
     for (const BoundaryCondition& condition : document_.scene.boundaries) {
       const std::string key = condition.key + ".on";
-      const bool fits = condition.key.starts_with("well")
+      const bool fits = condition.is_well()
                             ? check_inner(key, condition.on, "a curve or a point", inner_)
                             : check_outer(key, condition.on);
       const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);

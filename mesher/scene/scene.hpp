@@ -186,6 +186,7 @@ struct BoundaryCondition {
   std::optional<VectorFunction> traction;
 
   [[nodiscard]] bool is_reservoir() const { return !std::isnan(reservoir_area); }
+  [[nodiscard]] bool is_well() const { return key.starts_with("well"); }
 };
 
 /// A wall without thickness on a named curve inside the mesh.

@@ -345,7 +345,7 @@ class Checks : private SceneCheckBase {
 
   /// Keys that say how liquid moves through a boundary or a well.
   [[nodiscard]] static std::vector<std::string> flow_keys(const BoundaryCondition& boundary) {
-    if (boundary.key.starts_with("well")) return {"head", "rate", "seepage_face"};
+    if (boundary.is_well()) return {"head", "rate", "seepage_face"};
     return {"pressure", "velocity", "darcy_flux", "head", "file", "seepage_face", "rain"};
   }
 

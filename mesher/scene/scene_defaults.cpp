@@ -17,7 +17,7 @@ std::optional<double> common_head(const Scene& scene) {
   constexpr double round_off = 1e-9;  // m
   std::optional<double> common;
   for (const BoundaryCondition& boundary : scene.boundaries) {
-    if (!boundary.head || boundary.key.starts_with("well")) continue;
+    if (!boundary.head || boundary.is_well()) continue;
     const double head = boundary.head->value(0.0);
     if (common && std::abs(head - *common) > round_off) return std::nullopt;
     if (!common) common = head;

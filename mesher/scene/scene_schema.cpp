@@ -88,8 +88,7 @@ const std::vector<SceneSection>& scene_sections() {
       {"wall[]", "[[wall]]",
        "Walls without thickness, such as sheet piles, on named curves inside the mesh: neither "
        "water nor grains get through, but for what the conductance says. They stand still: soil "
-       "that "
-       "moves slides along them."},
+       "that moves slides along them."},
       {"well[]", "[[well]]",
        "Wells and drains on named curves or points inside the mesh, each with one of `head`, "
        "`rate` and `seepage_face`. Values may change in time as those of boundaries. They stand "

@@ -151,7 +151,7 @@ class SeepageChecks : private SceneCheckBase {
     }
     std::vector<std::string> heads;
     for (const BoundaryCondition& boundary : scene_.boundaries) {
-      if (boundary.key.starts_with("well")) continue;
+      if (boundary.is_well()) continue;
       const bool wrong = given(joined(boundary.key, "head")) || given(joined(boundary.key, "file"));
       if (!boundary.head && wrong) return;  // reported already
       if (!boundary.head) continue;

@@ -79,7 +79,7 @@ std::vector<OutsideWater> outside_water(const Mesh<2>& mesh, const Scene& scene,
     middle += x.dot(axes.across) / static_cast<double>(mesh.nodes.size());
   }
   for (const BoundaryCondition& boundary : scene.boundaries) {
-    if (!boundary.head || boundary.key.starts_with("well")) continue;
+    if (!boundary.head || boundary.is_well()) continue;
     const auto set = std::ranges::find(mesh.boundaries, boundary.on, &BoundarySet<2>::name);
     if (set == mesh.boundaries.end()) continue;
     OutsideWater water{boundary.on, boundary.head->value(time), {}, {}};

@@ -19,16 +19,12 @@ std::vector<int> faces_of(const Grid<Dim>& grid, const std::string& boundary) {
   return faces;
 }
 
-bool is_well(const BoundaryCondition& boundary) {
-  return boundary.key.starts_with("well[");
-}
-
 /// Names of walls and wells. They do not move; soil slides along them.
 std::vector<std::string> walls_and_wells(const Scene& scene) {
   std::vector<std::string> names;
   for (const Wall& wall : scene.walls) names.push_back(wall.on);
   for (const BoundaryCondition& boundary : scene.boundaries) {
-    if (is_well(boundary)) names.push_back(boundary.on);
+    if (boundary.is_well()) names.push_back(boundary.on);
   }
   return names;
 }
@@ -68,7 +64,7 @@ BoundaryLoads<Dim>::BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soi
   for (int b = 0; b < static_cast<int>(scene_.boundaries.size()); ++b) {
     const BoundaryCondition& boundary = scene_.boundaries[b];
     if (!boundary.traction && !boundary.head) continue;
-    if (is_well(boundary)) continue;  // it stands still, whatever its water presses on
+    if (boundary.is_well()) continue;  // it stands still, whatever its water presses on
     std::vector<int> faces = faces_of(grid, boundary.on);
     std::erase_if(faces, [&](int f) { return sorted.is_empty(grid.face_left[f]); });
     if (faces.empty()) continue;

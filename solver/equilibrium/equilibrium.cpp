@@ -64,6 +64,17 @@ PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left) {
 }
 
 template <int Dim>
+Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& displacement) {
+  Increments<Dim> result(grid.mesh.element_count(), Eigen::Matrix<double, Dim, Dim>::Identity());
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    for (int a = 0; a <= Dim; ++a) {
+      result[e] += displacement[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
+    }
+  }
+  return result;
+}
+
+template <int Dim>
 Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& supports,
                               int threads)
     : body_(body),
@@ -149,16 +160,17 @@ void Equilibrium<Dim>::displace(const NodeVectors<Dim>& displacement, bool with_
 }
 
 template <int Dim>
-std::vector<double> Equilibrium<Dim>::law_factors(const NodeVectors<Dim>& displacement) const {
-  if (!dilatation_.acts()) return {};
-  std::vector<double> ratio(ratio_.size(), 1.0);
-  for (const int e : elements_) {
-    ratio[e] = (Gradient::Identity() + displacement_gradient(displacement, e)).determinant();
-  }
-  std::vector<double> result = ratio;
-  dilatation_.average(result);
+Increments<Dim> Equilibrium<Dim>::law_increments(const NodeVectors<Dim>& displacement) const {
+  Increments<Dim> result = increments_of(body_.grid, displacement);
+  if (!dilatation_.acts()) return result;
+  std::vector<double> ratio(result.size());
+  for (std::size_t e = 0; e < ratio.size(); ++e) ratio[e] = result[e].determinant();
+  std::vector<double> mean = ratio;
+  dilatation_.average(mean);
   for (std::size_t e = 0; e < ratio.size(); ++e) {
-    result[e] = law_factor<Dim>(result[e], ratio[e]);
+    if (dilatation_.is_shared(static_cast<int>(e))) {
+      result[e] *= law_factor<Dim>(mean[e], ratio[e]);
+    }
   }
   return result;
 }
@@ -447,6 +459,8 @@ void Equilibrium<Dim>::assemble_elastic(Eigen::SparseMatrix<double>& stiffness) 
   scatter([&](int e) { return elastic_tangent(e); }, stiffness);
 }
 
+template Increments<2> increments_of(const Grid<2>&, const NodeVectors<2>&);
+template Increments<3> increments_of(const Grid<3>&, const NodeVectors<3>&);
 template class Equilibrium<2>;
 template class Equilibrium<3>;
 

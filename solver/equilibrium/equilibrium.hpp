@@ -40,6 +40,14 @@ struct SolidBody {
   double soft = soft_share;
 };
 
+/// Increments F = I + grad du of the deformation gradient, per element.
+template <int Dim>
+using Increments = std::vector<Eigen::Matrix<double, Dim, Dim>>;
+
+/// Those of a displacement of the nodes, m.
+template <int Dim>
+Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& displacement);
+
 /// Equilibrium over one step about the places at its start (updated Lagrangian), with linear
 /// displacements, F = I + grad du:
 ///
@@ -83,8 +91,8 @@ class Equilibrium {
   /// Norm of the forces of all elements, balanced or not, plus that at a strain of `least_strain`,
   /// N. Residuals are relative to it, also without stress.
   [[nodiscard]] double force_scale() const;
-  /// Factor on F that the laws of each element see at a possible displacement; empty: 1 everywhere.
-  [[nodiscard]] std::vector<double> law_factors(const NodeVectors<Dim>& displacement) const;
+  /// Increments that laws see at a possible displacement, m.
+  [[nodiscard]] Increments<Dim> law_increments(const NodeVectors<Dim>& displacement) const;
   /// Sets the derivative of the forces by the unknowns, N/m, in the pattern of `pattern()`.
   void assemble(Eigen::SparseMatrix<double>& tangent) const;
   /// The derivative times a displacement, N.

@@ -40,6 +40,10 @@ class StepEquilibrium {
 
   /// Displacement of the last solution, m.
   [[nodiscard]] const NodeVectors<Dim>& displacement() const { return displacement_; }
+  /// Increments that laws see in the last solution.
+  [[nodiscard]] Increments<Dim> law_increments() const {
+    return equilibrium_.law_increments(displacement_);
+  }
   /// Iterations of Newton's method for the last solution.
   [[nodiscard]] int iterations() const { return iterations_; }
   /// Node with the largest unbalanced force if the last solution failed.

@@ -14,13 +14,9 @@ void refuse_compressed(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
   const SolidPoints<Dim>& points = step.points;
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
-    Eigen::Matrix<double, Dim, Dim> f = Eigen::Matrix<double, Dim, Dim>::Identity();
-    for (int a = 0; a <= Dim; ++a) {
-      f += step.displacement[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
-    }
-    if (!step.law_factors.empty()) f *= step.law_factors[e];
     const double before = 1.0 - step.solid_volume[p] / points.volume[p];
-    const double after = 1.0 - step.solid_volume[p] / (points.volume[p] * f.determinant());
+    const double after =
+        1.0 - step.solid_volume[p] / (points.volume[p] * step.increments[e].determinant());
     // Pores closed by deposits do not count: the step does not compress them.
     if (after > hardly_any * step.initial_porosity[p] || after >= before) continue;
     const Soil& soil = soils.soil_of_point(p);

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-#include "equilibrium/solid_points.hpp"
-#include "equilibrium/supports.hpp"
+#include "equilibrium/equilibrium.hpp"
 #include "solid/soil_map.hpp"
 
 namespace suffuse {
@@ -17,8 +16,7 @@ struct SoilStep {
   const SolidPoints<Dim>& points;
   std::vector<double> solid_volume;             ///< per point, m3
   const std::vector<double>& initial_porosity;  ///< per point
-  const NodeVectors<Dim>& displacement;         ///< over the step, m
-  std::vector<double> law_factors;              ///< `Equilibrium::law_factors` of it
+  Increments<Dim> increments;                   ///< that laws see over the step
   double end;                                   ///< s
 };
 

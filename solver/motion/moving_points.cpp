@@ -69,11 +69,9 @@ void show(const ShownPoints<Dim>& shown, Snapshot& snapshot) {
 
 template <int Dim>
 void MovingSkeleton<Dim>::check_pores(const MotionStep<Dim>& step) const {
-  refuse_compressed<Dim>(
-      this->grid_, this->soils(),
-      {points_, solid_volumes(), this->initial_porosity_, step.equilibrium->displacement(),
-       step.equilibrium->equilibrium().law_factors(step.equilibrium->displacement()),
-       step.forcing.end});
+  refuse_compressed<Dim>(this->grid_, this->soils(),
+                         {points_, solid_volumes(), this->initial_porosity_,
+                          step.equilibrium->law_increments(), step.forcing.end});
 }
 
 template <int Dim>

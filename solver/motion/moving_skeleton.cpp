@@ -324,8 +324,8 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
   boundary_loads_.move(equilibrium.sorted(), equilibrium.displacement());
   const std::vector<int> element = points_.element;
   const std::vector<Vector<Dim>> place = points_.position;
-  move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(), points_,
-              this->threads_, equilibrium.equilibrium().law_factors(equilibrium.displacement()));
+  move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(),
+              equilibrium.law_increments(), points_, this->threads_);
   SoilKinetics found;
   if (!inertia_.acts()) {
     found = kinetics(step, place);

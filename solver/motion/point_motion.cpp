@@ -31,9 +31,8 @@ template <int Dim>
 
 template <int Dim>
 void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
-                 const NodeVectors<Dim>& displacement, SolidPoints<Dim>& points, int threads,
-                 const std::vector<double>& law_factors) {
-  using Gradient = Eigen::Matrix<double, Dim, Dim>;
+                 const NodeVectors<Dim>& displacement, const Increments<Dim>& increments,
+                 SolidPoints<Dim>& points, int threads) {
   const int count = points.size();
   std::vector<Vector<Dim>> position(count);
   std::vector<int> element(count);
@@ -50,11 +49,7 @@ void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skelet
   }
   for_each_index(count, threads, [&](int p) {
     const int e = points.element[p];
-    Gradient f = Gradient::Identity();
-    for (int a = 0; a <= Dim; ++a) {
-      f += displacement[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
-    }
-    if (!law_factors.empty()) f *= law_factors[e];
+    const Eigen::Matrix<double, Dim, Dim>& f = increments[e];
     const SkeletonResponse response =
         skeleton_response<Dim>(*skeleton[p].law, skeleton[p].parameters, points.skeleton[p], f);
     points.skeleton[p] = response.state;
@@ -83,9 +78,9 @@ double largest_travel(const Grid<Dim>& grid, const PointsByElement& sorted,
 }
 
 template void move_points(const Grid<2>&, const std::vector<PointSkeleton>&, const NodeVectors<2>&,
-                          SolidPoints<2>&, int, const std::vector<double>&);
+                          const Increments<2>&, SolidPoints<2>&, int);
 template void move_points(const Grid<3>&, const std::vector<PointSkeleton>&, const NodeVectors<3>&,
-                          SolidPoints<3>&, int, const std::vector<double>&);
+                          const Increments<3>&, SolidPoints<3>&, int);
 template double largest_travel(const Grid<2>&, const PointsByElement&, const NodeVectors<2>&);
 template double largest_travel(const Grid<3>&, const PointsByElement&, const NodeVectors<3>&);
 

@@ -9,13 +9,13 @@ namespace suffuse {
 /// Moves the points, finds their new elements, and updates volume, elastic deformation and plastic
 /// strain. The body's order of points and its classes are outdated then: make them again.
 /// \param displacement  of the nodes over the step, m
-/// \param law_factors   `Equilibrium::law_factors` of the displacement: volumes follow it too
+/// \param increments    that laws see (`Equilibrium::law_increments`); volumes follow them too
 /// Throws NumericalError, with point and place, if a point would leave the mesh; the points do not
 /// change then.
 template <int Dim>
 void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
-                 const NodeVectors<Dim>& displacement, SolidPoints<Dim>& points, int threads,
-                 const std::vector<double>& law_factors);
+                 const NodeVectors<Dim>& displacement, const Increments<Dim>& increments,
+                 SolidPoints<Dim>& points, int threads);
 
 /// Largest displacement of an element's node over the smallest height of the element, among
 /// elements with points: a step should stay below 1/4.

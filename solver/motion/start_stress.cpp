@@ -19,19 +19,13 @@ constexpr int max_slow_iterations = 100;
 constexpr double max_poisson = 0.45;
 
 template <int Dim>
-void take_stress(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step, SolidPoints<Dim>& points,
-                 int threads) {
-  using Gradient = Eigen::Matrix<double, Dim, Dim>;
-  const std::vector<double> factors = step.equilibrium().law_factors(step.displacement());
+void take_stress(const StepEquilibrium<Dim>& step, SolidPoints<Dim>& points, int threads) {
+  const Increments<Dim> increments = step.law_increments();
   for_each_index(points.size(), threads, [&](int p) {
-    const int e = points.element[p];
-    Gradient f = Gradient::Identity();
-    for (int a = 0; a <= Dim; ++a) {
-      f += step.displacement()[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
-    }
-    if (!factors.empty()) f *= factors[e];
     const auto& [law, parameters] = step.skeleton()[p];
-    points.skeleton[p] = skeleton_response<Dim>(*law, parameters, points.skeleton[p], f).state;
+    points.skeleton[p] =
+        skeleton_response<Dim>(*law, parameters, points.skeleton[p], increments[points.element[p]])
+            .state;
   });
 }
 
@@ -50,7 +44,7 @@ bool settle(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
     for (int pass = 0;; ++pass) {
       if (pass == max_passes || !step.solve(forces, pressure)) return false;
       if (step.iterations() == 0) break;
-      take_stress(grid, step, points, threads);
+      take_stress(step, points, threads);
       step.restart();
     }
   }
@@ -72,7 +66,7 @@ StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton
     }
     if (step.iterations() == 0) return {.stands = true};
     limits.max_iterations -= step.iterations();
-    take_stress(grid, step, points, threads);
+    take_stress(step, points, threads);
     step.restart();
   }
   return {.worst_node = step.worst_node()};

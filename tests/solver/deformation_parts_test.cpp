@@ -250,7 +250,8 @@ TEST(Equilibrium, TangentIsSymmetricWhereDilatationIsShared) {
   StressedBody<3> body(small_mesh<3>(), "elastic");
   for (PointSkeleton& of_point : body.skeleton) of_point.parameters.poisson = 0.45;
   Equilibrium<3> equilibrium = body.equilibrium();
-  ASSERT_FALSE(equilibrium.law_factors(body.some_displacement(0.0, 1)).empty());
+  const NodeVectors<3> somehow = body.some_displacement(0.01, 1);
+  ASSERT_NE(equilibrium.law_increments(somehow), increments_of(body.grid, somehow));
   equilibrium.displace(body.some_displacement(0.01, 1), true);
   const NodeVectors<3> one = body.some_displacement(0.1, 2);
   const NodeVectors<3> other = body.some_displacement(0.1, 3);
@@ -403,7 +404,7 @@ TEST(PointMotion, RefusesAPointThatLeavesTheMeshAndKeepsTheOthers) {
   const std::vector<Vector<2>> before = m.points.position;
   NodeVectors<2> displacement(m.mesh.node_count(), Vector<2>(0.0, 0.45));
   try {
-    move_points(m.grid, m.skeleton, displacement, m.points, 1, {});
+    move_points(m.grid, m.skeleton, displacement, increments_of(m.grid, displacement), m.points, 1);
     FAIL();
   } catch (const NumericalError& error) {
     EXPECT_STREQ(
@@ -418,8 +419,8 @@ TEST(PointMotion, RefusesAPointThatLeavesTheMeshAndKeepsTheOthers) {
 TEST(PointMotion, SoilMayRiseALittleOverTheBorder) {
   PlaneModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
   const std::vector<Vector<2>> before = m.points.position;
-  move_points(m.grid, m.skeleton, NodeVectors<2>(m.mesh.node_count(), Vector<2>(0.0, 0.4)),
-              m.points, 1, {});
+  const NodeVectors<2> displacement(m.mesh.node_count(), Vector<2>(0.0, 0.4));
+  move_points(m.grid, m.skeleton, displacement, increments_of(m.grid, displacement), m.points, 1);
   for (int p = 0; p < m.points.size(); ++p) {
     const Vector<2>& now = m.points.position[p];
     EXPECT_NEAR((now - before[p] - Vector<2>(0.0, 0.4)).norm(), 0.0, 1e-15);

@@ -369,8 +369,7 @@ TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
     boundary.add(step.sorted(), k / 40.0, loads);
     ASSERT_TRUE(step.solve(loads, {}));
     boundary.move(step.sorted(), step.displacement());
-    move_points(b.grid, skeleton, step.displacement(), points, 1,
-                step.equilibrium().law_factors(step.displacement()));
+    move_points(b.grid, skeleton, step.displacement(), step.law_increments(), points, 1);
   }
   b.run(0.0, 1.0, 40);
   int moved = 0;

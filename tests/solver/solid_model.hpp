@@ -124,8 +124,8 @@ class SolidModel {
     NewtonSolution<Dim> solution = solve_equilibrium(equilibrium, loads, prescribed, limits);
     if (!solution.converged) return solution;
     surface.move(grid, sorted, solution.displacement);
-    move_points(grid, skeleton, solution.displacement, points, threads,
-                equilibrium.law_factors(solution.displacement));
+    move_points(grid, skeleton, solution.displacement,
+                equilibrium.law_increments(solution.displacement), points, threads);
     sort();
     return solution;
   }

@@ -133,8 +133,8 @@ InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
     result.iterations = solution.iterations();
     result.inertia_share = equilibrium.inertia_norm() / norm<Dim>(loads);
     velocities_.take(grid_, points, times<Dim>(1.0 / dt, solution.displacement), nodes.mass);
-    move_points(grid_, skeleton, solution.displacement, points, threads_,
-                equilibrium.law_factors(solution.displacement));
+    move_points(grid_, skeleton, solution.displacement,
+                equilibrium.law_increments(solution.displacement), points, threads_);
     plan_next(result);
     return result;
   }

@@ -13,15 +13,7 @@ namespace failing_soil_test {
 using model::clean_pressure_on;
 using model::fixed_on;
 using model::missing_fines;
-
-/// Elements whose centroid fulfils `holds` are soil, the others free water.
-Mesh<2> under_water(Mesh<2> mesh, const std::function<bool(const Vector<2>&)>& holds) {
-  mesh.region_names = {"specimen", "free_above"};
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    mesh.element_region[e] = holds(element_centroid(mesh, e)) ? 0 : 1;
-  }
-  return mesh;
-}
+using model::under_water;
 
 Scene basin(double water_level) {
   Scene scene = model::paper_scene();

@@ -16,6 +16,16 @@ inline BoundaryCondition fixed_on(const std::string& name, Fixing fix) {
   return b;
 }
 
+/// Elements whose centroid fulfils `holds` are soil, the others free water.
+template <int Dim>
+Mesh<Dim> under_water(Mesh<Dim> mesh, const auto& holds) {
+  mesh.region_names = {"specimen", "free_above"};
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    mesh.element_region[e] = holds(element_centroid(mesh, e)) ? 0 : 1;
+  }
+  return mesh;
+}
+
 /// A boundary at a pressure, Pa; an inflow through it is clean.
 inline BoundaryCondition clean_pressure_on(const std::string& name, double pressure) {
   BoundaryCondition b = pressure_on(name, pressure);

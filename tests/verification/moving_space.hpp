@@ -62,15 +62,6 @@ inline Scene slab_scene() {
   return scene;
 }
 
-/// Elements whose centroid fulfils `holds` are soil, the others free water.
-inline Mesh<3> under_water(Mesh<3> mesh, const std::function<bool(const Vector<3>&)>& holds) {
-  mesh.region_names = {"specimen", "free_above"};
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    mesh.element_region[e] = holds(element_centroid(mesh, e)) ? 0 : 1;
-  }
-  return mesh;
-}
-
 /// A bank of 1 m with a slope of 45 degrees, along diagonals of the cells, that loses its strength
 /// with its fines.
 inline SpaceRun slab_of_bank(int threads = 1, int in_metre = 4) {

@@ -303,7 +303,8 @@ TEST(CarriedBlock, HasNoStressAndItsVolumeAfterManyTurns) {
       for (const Vector<2>& x : m.mesh.nodes) {
         displacement.push_back(motion.displacement(x, shift));
       }
-      move_points(m.grid, m.skeleton, displacement, m.points, 1, {});
+      move_points(m.grid, m.skeleton, displacement, increments_of(m.grid, displacement), m.points,
+                  1);
       m.sort();
       motion.centre += shift;
     }
