@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "common/errors.hpp"
-#include "driver/plan.hpp"
 #include "driver/run_loop.hpp"
 #include "driver/run_notes.hpp"
 #include "files/layout.hpp"

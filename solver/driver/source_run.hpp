@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "driver/plan.hpp"
 #include "formulation/earlier_state.hpp"
 
 namespace suffuse {

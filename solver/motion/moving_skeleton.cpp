@@ -11,6 +11,7 @@
 #include "motion/element_gains.hpp"
 #include "motion/element_stiffness.hpp"
 #include "motion/point_motion.hpp"
+#include "motion/point_spacing.hpp"
 #include "motion/start_stress.hpp"
 #include "physics/head.hpp"
 #include "solid/pores.hpp"
@@ -326,6 +327,7 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
   const std::vector<Vector<Dim>> place = points_.position;
   move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(),
               equilibrium.law_increments(), points_, this->threads_);
+  if (inertia_.acts()) space_points(this->grid_, supports_, points_);
   SoilKinetics found;
   if (!inertia_.acts()) {
     found = kinetics(step, place);
