@@ -41,6 +41,9 @@ void Failure<Dim>::step_unsolved(double time, const Unsolved& why) {
 
 template <int Dim>
 void Failure<Dim>::finish_step(double time, double next_step, const SoilKinetics& soil) {
+  // Soil at rest does not move: short steps then are those of the flow, which follows its errors
+  // again after the motion.
+  if (solid_.rests()) return expect_short_steps();
   const bool is_short = next_step < short_step * solid_.time_of_fall();
   if (long_steps_ && watches() && (is_short || soil.is_slide())) {
     start_inertia(time);

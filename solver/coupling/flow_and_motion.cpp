@@ -93,6 +93,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   const auto on_solid = [&](const Eigen::VectorXd& rise) {
     return pressure_on_solid(grid_, soils, risen(pressure, rise), at_start.porosity, air);
   };
+  const Eigen::VectorXd acts = acting_shares(soils, air, at_start.porosity, pressure);
   AndersonMixing mixing(memory);
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const double scale =
@@ -123,8 +124,9 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
     const Eigen::VectorXd rose =
         rise_at_soil(start.state.face_pressure, found.end.face_pressure, forcing.mean_storage);
     const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
-    const double off = (new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
-    if (off <= allowed(largest(new_of_elements), scale, floor)) {
+    const double off =
+        acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
+    if (off <= allowed(largest(acts.cwiseProduct(new_of_elements)), scale, floor)) {
       step.rise = rise_of(rose, dt);
       step.flow.found = std::move(found);
       return std::nullopt;
@@ -164,12 +166,25 @@ std::vector<double> FlowAndMotion<Dim>::held_by_soil(const FlowSoils<Dim>& soils
   for (std::size_t e = 0; e < forcing.mean_mobility.size(); ++e) {
     if (forcing.mean_mobility[e] > 0.0) result[e] *= beside_mobility;
   }
-  const std::vector<double> saturation = saturation_of(grid_, air, forcing.coefficients.porosity);
-  for (std::size_t e = 0; e < saturation.size(); ++e) {
+  const Eigen::VectorXd acts = acting_shares(soils, air, forcing.coefficients.porosity, pressure);
+  for (std::size_t e = 0; e < result.size(); ++e) {
     // Suction acts on the soil, and the soil on the water, by the filled share of the pores.
-    if (pressure[e] >= 0.0 || !soils.air_moves()) continue;
-    const double filled = soils.suction_share(static_cast<int>(e), saturation[e]);
-    result[e] *= filled < least_suction_share ? 0.0 : filled * filled;
+    const double share = acts[static_cast<Eigen::Index>(e)];
+    result[e] *= share < least_suction_share ? 0.0 : share * share;
+  }
+  return result;
+}
+
+template <int Dim>
+Eigen::VectorXd FlowAndMotion<Dim>::acting_shares(const FlowSoils<Dim>& soils,
+                                                  const ElementField<Dim>& air,
+                                                  const std::vector<double>& porosity,
+                                                  const std::vector<double>& pressure) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(grid_.mesh.element_count());
+  if (!soils.air_moves()) return result;
+  const std::vector<double> saturation = saturation_of(grid_, air, porosity);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (pressure[e] < 0.0) result[e] = soils.suction_share(e, saturation[e]);
   }
   return result;
 }

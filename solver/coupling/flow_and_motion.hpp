@@ -62,6 +62,12 @@ class FlowAndMotion {
                                                  const FlowForcing<Dim>& forcing,
                                                  const std::vector<double>& pressure,
                                                  double dt) const;
+  /// Share of the elements' pressure that acts on the soil: of suction, what `pressure_on_solid`
+  /// takes.
+  [[nodiscard]] Eigen::VectorXd acting_shares(const FlowSoils<Dim>& soils,
+                                              const ElementField<Dim>& air,
+                                              const std::vector<double>& porosity,
+                                              const std::vector<double>& pressure) const;
   /// Expected rise of the pressure at faces in a step of `dt`, s, after the last one, Pa.
   [[nodiscard]] Eigen::VectorXd expected_rise(const PressureRise& last, double dt) const;
 

@@ -50,6 +50,27 @@ std::vector<double> locking_volumes(const SolidBody<Dim>& body, const Supports<D
   return volume;
 }
 
+/// A node with a smaller share of the mass that it has inside the soil counts with that share: near
+/// a point that a support holds, the other nodes of its element would fall freely, and take steps
+/// of their own.
+constexpr double least_mass_share = 1e-3;
+
+/// Least mass of the nodes that have any, kg.
+template <int Dim>
+std::vector<double> least_masses(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                                 const std::vector<double>& mass) {
+  double sum = 0.0;
+  double volume = 0.0;
+  for (const double m : mass) sum += m;
+  for (const double v : points.volume) volume += v;
+  std::vector<double> result(mass.size(), 0.0);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const double share = least_mass_share * sum / volume * grid.volume[e] / (Dim + 1);
+    for (const int i : grid.mesh.elements[e]) result[i] += mass[i] > 0.0 ? share : 0.0;
+  }
+  return result;
+}
+
 /// (Jm/J)^(1/d): a factor on F that makes its determinant Jm.
 template <int Dim>
 double law_factor(double mean_ratio, double ratio) {
@@ -294,10 +315,10 @@ NodeVectors<Dim> Equilibrium<Dim>::forces() const {
 template <int Dim>
 void Equilibrium<Dim>::set_inertia(const std::vector<double>& mass,
                                    const NodeVectors<Dim>& velocity, double dt) {
-  inertia_.resize(mass.size());
+  inertia_ = least_masses(body_.grid, body_.points, mass);
   coasting_.resize(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) {
-    inertia_[i] = mass[i] / (dt * dt);
+    inertia_[i] = std::max(inertia_[i], mass[i]) / (dt * dt);
     coasting_[i] = dt * velocity[i];
   }
 }

@@ -19,23 +19,30 @@ constexpr int max_spreadings = 10;
 /// makes points oscillate.
 constexpr double pace = 0.4;
 
-/// Volume of points above the allowed one, per node, over the node's share of the mesh.
+/// Volume of points above the allowed one, over the volume of each element.
 template <int Dim>
 std::vector<double> excess_of(const Grid<Dim>& grid, const Supports<Dim>& supports,
                               const SolidPoints<Dim>& points) {
-  const std::vector<double> filled =
+  std::vector<double> excess =
       smooth_volumes(grid, points, points.volume, supports.rigid_elements());
+  for (std::size_t e = 0; e < excess.size(); ++e) {
+    excess[e] = std::max(0.0, excess[e] / grid.volume[e] - 1.0 - allowed_excess);
+  }
+  return excess;
+}
+
+/// Means of the elements around each node.
+template <int Dim>
+std::vector<double> at_nodes(const Grid<Dim>& grid, const std::vector<double>& of_elements) {
   std::vector<double> sum(grid.mesh.node_count(), 0.0);
   std::vector<double> volume(grid.mesh.node_count(), 0.0);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     for (const int i : grid.mesh.elements[e]) {
-      sum[i] += filled[e];
+      sum[i] += grid.volume[e] * of_elements[e];
       volume[i] += grid.volume[e];
     }
   }
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    sum[i] = std::max(0.0, sum[i] / volume[i] - 1.0 - allowed_excess);
-  }
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= volume[i];
   return sum;
 }
 
@@ -74,7 +81,7 @@ void space_points(const Grid<Dim>& grid, const Supports<Dim>& supports, SolidPoi
   for (int pass = 0; pass < max_spreadings; ++pass) {
     const std::vector<double> excess = excess_of(grid, supports, points);
     if (std::ranges::max(excess) < small_excess) return;
-    const NodeVectors<Dim> motion = spreading(grid, supports, excess);
+    const NodeVectors<Dim> motion = spreading(grid, supports, at_nodes(grid, excess));
     for (int p = 0; p < points.size(); ++p) {
       const int e = points.element[p];
       const PointPlace<Dim> place{e, barycentric(grid.mesh, e, points.position[p])};
