@@ -254,7 +254,7 @@ template <int Dim>
 void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
   // Pressures of confined water magnify the residual.
   constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
-  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-4, .goal = 1e-5};
+  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-4, .goal = 1e-6};
   step.has_inertia = inertia_.acts();
   // With inertia, a piece of soil connected by one node needs no soft stiffness.
   step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
@@ -327,7 +327,7 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
   const std::vector<Vector<Dim>> place = points_.position;
   move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(),
               equilibrium.law_increments(), points_, this->threads_);
-  if (inertia_.acts()) space_points(this->grid_, supports_, points_);
+  if (inertia_.acts()) space_points(this->grid_, supports_, equilibrium.displacement(), points_);
   SoilKinetics found;
   if (!inertia_.acts()) {
     found = kinetics(step, place);

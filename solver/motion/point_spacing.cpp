@@ -49,7 +49,8 @@ std::vector<double> at_nodes(const Grid<Dim>& grid, const std::vector<double>& o
 /// Motion of the nodes from where points overlap, along their free directions, m.
 template <int Dim>
 NodeVectors<Dim> spreading(const Grid<Dim>& grid, const Supports<Dim>& supports,
-                           const std::vector<double>& excess) {
+                           const std::vector<double>& excess,
+                           const NodeVectors<Dim>& displacement) {
   NodeVectors<Dim> motion(excess.size(), Vector<Dim>::Zero());
   std::vector<double> volume(excess.size(), 0.0);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
@@ -70,6 +71,9 @@ NodeVectors<Dim> spreading(const Grid<Dim>& grid, const Supports<Dim>& supports,
     const auto i = static_cast<int>(k);
     const auto free = supports.directions(i).leftCols(supports.free_count(i));
     motion[i] = free * (free.transpose() * motion[i]) / volume[i];
+    const double length = motion[i].norm();
+    const double most = displacement[i].norm();
+    if (length > most) motion[i] *= most / length;
   }
   return motion;
 }
@@ -77,11 +81,12 @@ NodeVectors<Dim> spreading(const Grid<Dim>& grid, const Supports<Dim>& supports,
 }  // namespace
 
 template <int Dim>
-void space_points(const Grid<Dim>& grid, const Supports<Dim>& supports, SolidPoints<Dim>& points) {
+void space_points(const Grid<Dim>& grid, const Supports<Dim>& supports,
+                  const NodeVectors<Dim>& displacement, SolidPoints<Dim>& points) {
   for (int pass = 0; pass < max_spreadings; ++pass) {
     const std::vector<double> excess = excess_of(grid, supports, points);
     if (std::ranges::max(excess) < small_excess) return;
-    const NodeVectors<Dim> motion = spreading(grid, supports, at_nodes(grid, excess));
+    const NodeVectors<Dim> motion = spreading(grid, supports, at_nodes(grid, excess), displacement);
     for (int p = 0; p < points.size(); ++p) {
       const int e = points.element[p];
       const PointPlace<Dim> place{e, barycentric(grid.mesh, e, points.position[p])};
@@ -94,7 +99,9 @@ void space_points(const Grid<Dim>& grid, const Supports<Dim>& supports, SolidPoi
   }
 }
 
-template void space_points(const Grid<2>&, const Supports<2>&, SolidPoints<2>&);
-template void space_points(const Grid<3>&, const Supports<3>&, SolidPoints<3>&);
+template void space_points(const Grid<2>&, const Supports<2>&, const NodeVectors<2>&,
+                           SolidPoints<2>&);
+template void space_points(const Grid<3>&, const Supports<3>&, const NodeVectors<3>&,
+                           SolidPoints<3>&);
 
 }  // namespace suffuse
