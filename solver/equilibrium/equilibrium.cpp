@@ -50,23 +50,25 @@ std::vector<double> locking_volumes(const SolidBody<Dim>& body, const Supports<D
   return volume;
 }
 
-/// A node with a smaller share of the mass that it has inside the soil counts with that share: near
-/// a point that a support holds, the other nodes of its element would fall freely, and take steps
-/// of their own.
+/// Beside a node that is held, one with a smaller share of the mass that it has inside the soil
+/// counts with that share: if the points of the element lie at the held node, the other would fall
+/// freely without them, and shorten the steps.
 constexpr double least_mass_share = 1e-3;
 
-/// Least mass of the nodes that have any, kg.
+/// Least mass of each node, kg; 0 where it has none, or no held node is beside it.
 template <int Dim>
-std::vector<double> least_masses(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                                 const std::vector<double>& mass) {
+std::vector<double> least_masses(const Grid<Dim>& grid, const Supports<Dim>& supports,
+                                 const SolidPoints<Dim>& points, const std::vector<double>& mass) {
   double sum = 0.0;
   double volume = 0.0;
   for (const double m : mass) sum += m;
   for (const double v : points.volume) volume += v;
   std::vector<double> result(mass.size(), 0.0);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    const auto& nodes = grid.mesh.elements[e];
+    if (std::ranges::none_of(nodes, [&](int i) { return supports.free_count(i) < Dim; })) continue;
     const double share = least_mass_share * sum / volume * grid.volume[e] / (Dim + 1);
-    for (const int i : grid.mesh.elements[e]) result[i] += mass[i] > 0.0 ? share : 0.0;
+    for (const int i : nodes) result[i] += mass[i] > 0.0 ? share : 0.0;
   }
   return result;
 }
@@ -315,7 +317,7 @@ NodeVectors<Dim> Equilibrium<Dim>::forces() const {
 template <int Dim>
 void Equilibrium<Dim>::set_inertia(const std::vector<double>& mass,
                                    const NodeVectors<Dim>& velocity, double dt) {
-  inertia_ = least_masses(body_.grid, body_.points, mass);
+  inertia_ = least_masses(body_.grid, unknowns_.supports(), body_.points, mass);
   coasting_.resize(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) {
     inertia_[i] = std::max(inertia_[i], mass[i]) / (dt * dt);

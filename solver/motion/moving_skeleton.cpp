@@ -254,7 +254,7 @@ template <int Dim>
 void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
   // Pressures of confined water magnify the residual.
   constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
-  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-4, .goal = 1e-6};
+  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-5, .goal = 1e-6};
   step.has_inertia = inertia_.acts();
   // With inertia, a piece of soil connected by one node needs no soft stiffness.
   step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
