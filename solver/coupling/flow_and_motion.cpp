@@ -89,11 +89,11 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   if (solid_.rests() && solve_at_rest(scheme, start, step)) return std::nullopt;
   const double floor = round_off_strain * solid_.stiffness();
   if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
-  forcing.mean_storage = held_by_soil(soils, air, forcing, pressure, dt);
+  const Eigen::VectorXd acts = acting_shares(soils, air, at_start.porosity, pressure);
+  forcing.mean_storage = held_by_soil(acts, forcing.mean_mobility, dt);
   const auto on_solid = [&](const Eigen::VectorXd& rise) {
     return pressure_on_solid(grid_, soils, risen(pressure, rise), at_start.porosity, air);
   };
-  const Eigen::VectorXd acts = acting_shares(soils, air, at_start.porosity, pressure);
   AndersonMixing mixing(memory);
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const double scale =
@@ -156,17 +156,14 @@ bool FlowAndMotion<Dim>::solve_at_rest(ImplicitMixed<Dim>& scheme, const FlowSta
 }
 
 template <int Dim>
-std::vector<double> FlowAndMotion<Dim>::held_by_soil(const FlowSoils<Dim>& soils,
-                                                     const ElementField<Dim>& air,
-                                                     const FlowForcing<Dim>& forcing,
-                                                     const std::vector<double>& pressure,
+std::vector<double> FlowAndMotion<Dim>::held_by_soil(const Eigen::VectorXd& acts,
+                                                     const std::vector<double>& mean_mobility,
                                                      double dt) const {
   std::vector<double> result = solid_.compressibility(dt);
   for (double& storage : result) storage *= held_storage;
-  for (std::size_t e = 0; e < forcing.mean_mobility.size(); ++e) {
-    if (forcing.mean_mobility[e] > 0.0) result[e] *= beside_mobility;
+  for (std::size_t e = 0; e < mean_mobility.size(); ++e) {
+    if (mean_mobility[e] > 0.0) result[e] *= beside_mobility;
   }
-  const Eigen::VectorXd acts = acting_shares(soils, air, forcing.coefficients.porosity, pressure);
   for (std::size_t e = 0; e < result.size(); ++e) {
     // Suction acts on the soil, and the soil on the water, by the filled share of the pores.
     const double share = acts[static_cast<Eigen::Index>(e)];

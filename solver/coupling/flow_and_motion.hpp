@@ -57,10 +57,9 @@ class FlowAndMotion {
   bool solve_at_rest(ImplicitMixed<Dim>& scheme, const FlowStart<Dim>& start,
                      CoupledStep<Dim>& step) const;
   /// Additional storage of the elements in the iteration, from the soil's compressibility, m3/Pa.
-  [[nodiscard]] std::vector<double> held_by_soil(const FlowSoils<Dim>& soils,
-                                                 const ElementField<Dim>& air,
-                                                 const FlowForcing<Dim>& forcing,
-                                                 const std::vector<double>& pressure,
+  /// \param acts  `acting_shares`
+  [[nodiscard]] std::vector<double> held_by_soil(const Eigen::VectorXd& acts,
+                                                 const std::vector<double>& mean_mobility,
                                                  double dt) const;
   /// Share of the elements' pressure that acts on the soil: of suction, what `pressure_on_solid`
   /// takes.

@@ -12,14 +12,6 @@
 namespace suffuse {
 namespace {
 
-/// Reciprocal of the element's smallest height, 1/m.
-template <int Dim>
-double steepest_shape(const Grid<Dim>& grid, int e) {
-  double steepest = 0.0;
-  for (const Vector<Dim>& g : grid.shape_gradient[e]) steepest = std::max(steepest, g.norm());
-  return steepest;
-}
-
 /// The lowest and the highest of all ranks.
 std::pair<double, double> range_of(const Ranks& ranks, const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(values);

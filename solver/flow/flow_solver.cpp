@@ -163,12 +163,7 @@ typename FlowSolver<Dim>::SurfaceSoil FlowSolver<Dim>::surface_soil(int element,
 
 template <int Dim>
 std::vector<double> FlowSolver<Dim>::node_means(const std::vector<double>& pressure) const {
-  std::vector<double> result(grid_.mesh.node_count(), 0.0);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    for (const int i : grid_.mesh.elements[e]) {
-      result[i] += grid_.volume[e] / (Dim + 1) / grid_.node_volume[i] * pressure[e];
-    }
-  }
+  std::vector<double> result = means_at_nodes(grid_, pressure, 0.0);
   prescribe_at_nodes(result);
   grid_.node_rows().exchange(result);
   return result;

@@ -134,6 +134,30 @@ struct Grid {
   OwnRows nodes_;
 };
 
+/// One over the smallest height of an element, 1/m.
+template <int Dim>
+double steepest_shape(const Grid<Dim>& grid, int element) {
+  double steepest = 0.0;
+  for (const Vector<Dim>& g : grid.shape_gradient[element]) {
+    steepest = std::max(steepest, g.norm());
+  }
+  return steepest;
+}
+
+/// Mean of the elements around each node, by volume, in this part of the mesh.
+/// \param of_elements  per element
+template <int Dim, class Value>
+std::vector<Value> means_at_nodes(const Grid<Dim>& grid, const std::vector<Value>& of_elements,
+                                  const Value& zero) {
+  std::vector<Value> result(grid.mesh.node_count(), zero);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    for (const int i : grid.mesh.elements[e]) {
+      result[i] += grid.volume[e] / (Dim + 1) / grid.node_volume[i] * of_elements[e];
+    }
+  }
+  return result;
+}
+
 /// Elements with an angle of more than 90 degrees (in three dimensions, between two sides).
 template <int Dim>
 int obtuse_elements(const Grid<Dim>& grid);

@@ -15,10 +15,7 @@ void CrossingForces<Dim>::find(const Grid<Dim>& grid, const PointsByElement& sor
   fading_.assign(force_.size(), std::numeric_limits<double>::infinity());
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     if (sorted.is_empty(e)) continue;
-    double steepest = 0.0;  // one over the height
-    for (const Vector<Dim>& gradient : grid.shape_gradient[e]) {
-      steepest = std::max(steepest, gradient.norm());
-    }
+    const double steepest = steepest_shape(grid, e);
     const double rate = diffusivity[e] * steepest * steepest / drainage_times;
     for (const int i : grid.mesh.elements[e]) fading_[i] = std::min(fading_[i], rate);
   }

@@ -30,15 +30,12 @@ std::vector<double> held_mobility(const Grid<Dim>& grid, const std::vector<doubl
                                   const std::vector<double>& node_mass, double duration) {
   const Mesh<Dim>& mesh = grid.mesh;
   const std::vector<double> held = held_compressibility(grid, drained, node_mass, duration);
-  std::vector<double> around(node_mass.size(), 0.0);  // each node's share of the mesh, m3
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    for (const int i : mesh.elements[e]) around[i] += grid.volume[e] / (Dim + 1);
-  }
   std::vector<double> result(drained.size(), 0.0);
   for (int e = 0; e < mesh.element_count(); ++e) {
     if (!(held[e] < share_of_inertia * drained[e])) continue;
     for (const int i : mesh.elements[e]) {
-      if (node_mass[i] > 0.0) result[e] += duration * around[i] / node_mass[i] / (Dim + 1);
+      if (node_mass[i] > 0.0)
+        result[e] += duration * grid.node_volume[i] / node_mass[i] / (Dim + 1);
     }
   }
   return result;

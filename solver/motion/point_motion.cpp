@@ -66,13 +66,9 @@ double largest_travel(const Grid<Dim>& grid, const PointsByElement& sorted,
   double largest = 0.0;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     if (sorted.is_empty(e)) continue;
-    double steepest = 0.0;  // one over the height
     double moved = 0.0;
-    for (int a = 0; a <= Dim; ++a) {
-      steepest = std::max(steepest, grid.shape_gradient[e][a].norm());
-      moved = std::max(moved, displacement[grid.mesh.elements[e][a]].norm());
-    }
-    largest = std::max(largest, steepest * moved);
+    for (const int i : grid.mesh.elements[e]) moved = std::max(moved, displacement[i].norm());
+    largest = std::max(largest, steepest_shape(grid, e) * moved);
   }
   return largest;
 }

@@ -55,28 +55,27 @@ class PointSpacing : public testing::Test {
     return result;
   }
 
+  /// Spreads points in a step that has moved all nodes by this length, m.
+  void space(double length) {
+    const Supports<dim> supports(m.grid, m.face_support);
+    const NodeVectors<dim> moved(m.mesh.node_count(), length * Vector<dim>::UnitX());
+    space_points(m.grid, supports, moved, m.points);
+  }
+
   Model m;
 };
-
-/// Nodes that have all moved by this length, m.
-template <int Dim>
-NodeVectors<Dim> far(const Mesh<Dim>& mesh, double length) {
-  return NodeVectors<Dim>(mesh.node_count(), length * Vector<Dim>::UnitX());
-}
 
 using Sizes = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(PointSpacing, Sizes);
 
 TYPED_TEST(PointSpacing, SpreadsPointsThatShareTheRoomOfOthers) {
   auto& box = this->m;
-  const Supports<TestFixture::dim> supports(box.grid, box.face_support);
   this->crowd(0.6);
-  const auto moved = far<TestFixture::dim>(box.mesh, 1.0);
   EXPECT_GT(this->fullest(), 1.6);
   const std::vector<double> volume = box.points.volume;
   double before = this->fullest();
   for (int step = 0; step < 30 && before > 1.3; ++step) {
-    space_points(box.grid, supports, moved, box.points);
+    this->space(1.0);
     EXPECT_LT(this->fullest(), before) << step;
     before = this->fullest();
   }
@@ -93,20 +92,18 @@ TYPED_TEST(PointSpacing, SpreadsPointsThatShareTheRoomOfOthers) {
 TYPED_TEST(PointSpacing, LeavesPointsAloneThatOverlapALittle) {
   this->crowd(0.9);
   auto& box = this->m;
-  const Supports<TestFixture::dim> supports(box.grid, box.face_support);
   const auto before = box.points.position;
-  space_points(box.grid, supports, far<TestFixture::dim>(box.mesh, 1.0), box.points);
+  this->space(1.0);
   EXPECT_EQ(box.points.position, before);
 }
 
 TYPED_TEST(PointSpacing, MovesPointsNoFartherThanTheSoilMoves) {
   this->crowd(0.6);
   auto& box = this->m;
-  const Supports<TestFixture::dim> supports(box.grid, box.face_support);
   const auto before = box.points.position;
-  space_points(box.grid, supports, far<TestFixture::dim>(box.mesh, 0.0), box.points);
+  this->space(0.0);
   EXPECT_EQ(box.points.position, before);
-  space_points(box.grid, supports, far<TestFixture::dim>(box.mesh, 1e-6), box.points);
+  this->space(1e-6);
   for (int p = 0; p < box.points.size(); ++p) {
     EXPECT_LE((box.points.position[p] - before[p]).norm(), 1.1e-5) << p;
   }
