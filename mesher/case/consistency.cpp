@@ -123,15 +123,22 @@ class SceneCheck {
     for (const Soil& soil : document_.scene.soils) {
       const auto region = std::ranges::find(mesh_.region_names, soil.region);
       if (region == mesh_.region_names.end()) {
-        const std::string meant = closest_name(soil.region, regions_without_soil());
-        meant_.insert(meant);
-        report("soil." + soil.region, in_quotes(soil.region),
-               "a region of the mesh: " + quoted_list(mesh_.region_names),
-               meant.empty() ? "" : in_quotes(meant));
+        report_no_region(soil.region);
       } else {
         check_porosity(soil, static_cast<int>(region - mesh_.region_names.begin()));
       }
     }
+    for (const std::string& region : document_.scene.free_regions) {
+      if (std::ranges::count(mesh_.region_names, region) == 0) report_no_region(region);
+    }
+  }
+
+  void report_no_region(const std::string& name) {
+    const std::string meant = closest_name(name, regions_without_soil());
+    meant_.insert(meant);
+    report("soil." + name, in_quotes(name),
+           "a region of the mesh: " + quoted_list(mesh_.region_names),
+           meant.empty() ? "" : in_quotes(meant));
   }
 
   [[nodiscard]] std::vector<std::string> regions_without_soil() const {

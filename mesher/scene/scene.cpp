@@ -40,7 +40,8 @@ bool names_free_water(const std::string& region) {
 }
 
 bool Scene::is_free_water(const std::string& region) const {
-  return (formulation == Formulation::double_point || moves()) && names_free_water(region) &&
+  const bool may_be_free = formulation == Formulation::double_point || moves();
+  return may_be_free && (names_free_water(region) || free_regions.contains(region)) &&
          find_soil(region) == nullptr;
 }
 

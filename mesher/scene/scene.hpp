@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -251,6 +252,7 @@ struct Scene {
   PointSettings points;
   LiquidProperties liquid;
   std::vector<Soil> soils;
+  std::set<std::string> free_regions;         ///< regions that the scene makes free
   std::vector<BoundaryCondition> boundaries;  ///< boundaries, then wells
   std::vector<Wall> walls;
   std::array<double, 3> gravity{};  ///< m/s2
@@ -267,8 +269,9 @@ struct Scene {
   /// Whether some soil has a skeleton that moves.
   [[nodiscard]] bool moves() const;
   [[nodiscard]] const Soil* find_soil(const std::string& region) const;
-  /// Free water (n_L = 1, no solid): a region without a soil that is called inflow, outflow,
-  /// free_above or free_below, in a double-point scene or one whose soil moves.
+  /// Free water (n_L = 1, no solid): a region without a soil that the scene makes free or that is
+  /// called inflow, outflow, free_above or free_below, in a double-point scene or one whose soil
+  /// moves.
   [[nodiscard]] bool is_free_water(const std::string& region) const;
   /// Whether the run follows the failure of soil in a mesh with these regions.
   [[nodiscard]] bool follows_failure(const std::vector<std::string>& regions) const;

@@ -29,6 +29,7 @@ class Checks : private SceneCheckBase {
     check_boundaries();
     check_seeding();
     check_formulation();
+    check_free_regions();
     check_third_term();
     check_scheme();
     check_transport();
@@ -244,6 +245,14 @@ class Checks : private SceneCheckBase {
       }
     }
     return keys;
+  }
+
+  void check_free_regions() const {
+    if (scene_.formulation == Formulation::double_point || scene_.moves()) return;
+    for (const std::string& region : scene_.free_regions) {
+      report(joined(joined("soil", shown_name(region)), "free"), "true in a single-point scene",
+             "formulation = \"double-point\", a skeleton that moves, or no such key");
+    }
   }
 
   /// Without the third term of Eq. 2 no balance closes: refuses erosion and fines that enter.

@@ -135,6 +135,13 @@ Declaration instruction(const char* pattern, const char* sentence) {
   return d;
 }
 
+/// As `instruction`, true or false.
+Declaration switch_of(const char* pattern, const char* sentence) {
+  Declaration d = instruction(pattern, sentence);
+  d.kind = ValueKind::boolean;
+  return d;
+}
+
 // NOLINTNEXTLINE(readability-function-size): one list, which is read from top to bottom
 std::vector<SceneKey> declare_keys() {
   using Geometry = GeometrySettings;
@@ -308,6 +315,12 @@ std::vector<SceneKey> declare_keys() {
       instruction("soil.*.like",
                   "Another soil that every key not given here is taken from, erosion included.")
           .otherwise_as("none"),
+      switch_of("soil.*.free",
+                "true: the region has no soil but is free, as `free_above` is without one; the "
+                "other keys of the table are not used. It is a pit to be dug or a place to be "
+                "filled in a run `initial.from` another. In double-point scenes, and where a "
+                "skeleton moves.")
+          .otherwise(false),
       key("soil.*.porosity", in_soil(&Soil::porosity),
           "Initial porosity; with a gradient, its value at `porosity_origin`.")
           .named("n_0")

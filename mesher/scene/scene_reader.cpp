@@ -336,6 +336,12 @@ class SceneReader {
     }
   }
 
+  /// Whether a soil's table makes its region free.
+  static bool is_free(const SceneNode& table) {
+    const SceneNode* free = table.find("free");
+    return free && free->accepted && std::get<bool>(*free->accepted);
+  }
+
   /// The tables of a group, such as `soil` or `output.probe`.
   /// \param first  index of the first of them
   [[nodiscard]] std::vector<Instance> members_of(const std::string& group,
@@ -350,7 +356,7 @@ class SceneReader {
     if (!node || node->form == Form::value) return instances;
     for (std::size_t i = 0; i < node->children.size(); ++i) {
       const SceneNode& child = node->children[i];
-      if (child.form != Form::table) continue;
+      if (child.form != Form::table || is_free(child)) continue;
       const std::string key =
           node->form == Form::list ? indexed(group, i) : joined(group, shown_name(child.name));
       instances.push_back({&child, key, first + instances.size()});
@@ -387,8 +393,11 @@ class SceneReader {
       }
     }
     report_incomplete_soils(groups[0].second);
-    if (root_.find("soil")) return;
-    report_missing("soil", "at least one table [soil.NAME], NAME being its region's");
+    const SceneNode* soils = root_.find("soil");
+    if (!soils) report_missing("soil", "at least one table [soil.NAME], NAME being its region's");
+    for (const SceneNode& soil : soils ? soils->children : std::vector<SceneNode>()) {
+      if (is_free(soil)) scene_.free_regions.insert(soil.name);
+    }
   }
 
   /// \param path  of the key within the instance's table

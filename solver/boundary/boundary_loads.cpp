@@ -100,6 +100,23 @@ void BoundaryLoads<Dim>::move(const PointsByElement& sorted, const NodeVectors<D
 }
 
 template <int Dim>
+std::map<std::string, LoadedSurface<Dim>> BoundaryLoads<Dim>::surfaces() const {
+  std::map<std::string, LoadedSurface<Dim>> result;
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    result.emplace(scene_.boundaries[boundary_[k]].on, surfaces_[k]);
+  }
+  return result;
+}
+
+template <int Dim>
+void BoundaryLoads<Dim>::place(const std::map<std::string, LoadedSurface<Dim>>& surfaces) {
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    const auto found = surfaces.find(scene_.boundaries[boundary_[k]].on);
+    if (found != surfaces.end()) surfaces_[k] = found->second;
+  }
+}
+
+template <int Dim>
 std::vector<double> BoundaryLoads<Dim>::breakpoints() const {
   std::vector<double> times;
   for (const int b : boundary_) {

@@ -2,6 +2,8 @@
 
 /// Supports and loads of the soil at the scene's boundaries.
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "boundary/loads.hpp"
@@ -31,6 +33,11 @@ class BoundaryLoads {
   /// Moves the loaded surfaces with the soil. Throws NumericalError if one would leave the mesh;
   /// then none has moved.
   void move(const PointsByElement& sorted, const NodeVectors<Dim>& displacement);
+
+  /// The surfaces by the name of their boundary.
+  [[nodiscard]] std::map<std::string, LoadedSurface<Dim>> surfaces() const;
+  /// Sets surfaces that are loaded in this scene too to the places where another run has left them.
+  void place(const std::map<std::string, LoadedSurface<Dim>>& surfaces);
 
   void archive(auto& archive) { archive(surfaces_); }
 

@@ -3,8 +3,21 @@
 #include <algorithm>
 
 #include "coupling/moved_air.hpp"
+#include "motion/compressed_soil.hpp"
 
 namespace suffuse {
+namespace {
+
+/// Throws EquilibriumLost if the step leaves soil without pores.
+template <int Dim>
+void check_pores(const Grid<Dim>& grid, const MovingSkeleton<Dim>& solid,
+                 const MotionStep<Dim>& step) {
+  refuse_compressed<Dim>(grid, solid.soils(),
+                         {solid.points(), solid.state().solid_volumes(), solid.initial_porosity(),
+                          step.equilibrium->law_increments(), step.forcing.end});
+}
+
+}  // namespace
 
 template <int Dim>
 CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval) {
@@ -29,7 +42,7 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
       failure_.step_unsolved(step.flow.start, *why);
       flow_.plan_anew(ahead, step.flow);
     } else if (flow_.accepts(ahead, step.flow)) {
-      solid_.check_pores(*step.motion);
+      check_pores(grid_, solid_, *step.motion);
       return step;
     }
   }
@@ -63,18 +76,21 @@ FlowOfMovingSolid<Dim>::FlowOfMovingSolid(const Scene& scene, const Grid<Dim>& g
       end_(scene.time.end) {}
 
 template <int Dim>
-void FlowOfMovingSolid<Dim>::start() {
+void FlowOfMovingSolid<Dim>::start(SoilStart how) {
   const MixedState<Dim>& flow = flow_.mixed_state();
   const FlowCoefficients<Dim>& coefficients = flow_.coefficients();
   const std::vector<double> pressure = pressure_on_solid(
       grid_, flow_.scheme().soils(), flow_.pressure(), coefficients.porosity, flow.air);
-  failure_.start(solid_.start_motion(pressure, liquid_mass(grid_, coefficients, flow.air)));
+  const std::vector<double> mass = liquid_mass(grid_, coefficients, flow.air);
+  if (how == SoilStart::finds_stress) failure_.start(solid_.start_motion(pressure, mass));
+  if (how == SoilStart::has_stress) solid_.balance_construction(pressure, mass);
   // Compressibility for a step as long as the run: inertia is then negligible, and soil is as soft
   // as when drained.
   flow_.start_steps({.load_change = solid_.largest_load_change(),
                      .stiffness = solid_.stiffness(),
                      .compressibility = solid_.compressibility(end_),
-                     .time_of_fall = failure_.has_inertia() ? solid_.time_of_fall() : 0.0});
+                     .time_of_change = failure_.has_inertia() ? solid_.time_of_fall()
+                                                              : solid_.time_of_release()});
 }
 
 template <int Dim>
@@ -97,15 +113,15 @@ CoupledFlow<Dim>::CoupledFlow(const Scene& scene, const Grid<Dim>& grid, FlowSol
 }
 
 template <int Dim>
-void CoupledFlow<Dim>::start() {
+void CoupledFlow<Dim>::start(SoilStart how) {
   flow_.start();
-  if (moving_) moving_->start();
+  if (moving_) moving_->start(how);
 }
 
 template <int Dim>
-void CoupledFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
+void CoupledFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier, SoilStart how) {
   flow_.start_from(earlier);
-  if (moving_) moving_->start();
+  if (moving_) moving_->start(how);
 }
 
 template <int Dim>

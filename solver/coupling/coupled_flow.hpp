@@ -12,6 +12,10 @@
 
 namespace suffuse {
 
+/// How soil that moves gets its stress at the start: it finds it, has that of an earlier run, or
+/// gets it later.
+enum class SoilStart { finds_stress, has_stress, stress_later };
+
 /// Flow and motion of a solid that moves, which needs the implicit flow.
 template <int Dim>
 class FlowOfMovingSolid {
@@ -20,8 +24,9 @@ class FlowOfMovingSolid {
   FlowOfMovingSolid(const Scene& scene, const Grid<Dim>& grid, ImplicitFlow<Dim>& flow,
                     MovingSkeleton<Dim>& solid, int threads);
 
-  /// Finds the initial stress of the solid and the first step. Call after the flow has started.
-  void start();
+  /// Finds the initial stress of the solid, if it has none, and the first step. Call after the flow
+  /// has started.
+  void start(SoilStart how);
   CoupledStep<Dim> solve(const FlowInterval<Dim>& interval);
   FlowProgress commit(CoupledStep<Dim> step);
 
@@ -54,8 +59,8 @@ class CoupledFlow {
 
   /// Sets the state at the start of the run, or the last one of another run. The coefficients of
   /// the flow must be known.
-  void start();
-  void start_from(const EarlierFlow<Dim>& earlier);
+  void start(SoilStart how);
+  void start_from(const EarlierFlow<Dim>& earlier, SoilStart how);
 
   /// Finds a step within the interval. Flow and solid do not change, except soil that fails: it
   /// gets inertia here, and the step is found with it. Throws NumericalError; EquilibriumLost if

@@ -8,12 +8,21 @@ namespace {
 /// Shortest step in equilibrium, over the time in which soil falls through an element.
 constexpr double short_step = 1e-2;
 
+/// Places of the points in the order of their numbers, m.
+template <int Dim>
+std::vector<Vector<Dim>> places_by_id(const MovingSkeleton<Dim>& solid) {
+  std::vector<Vector<Dim>> places(solid.points().size());
+  for (int p = 0; p < solid.points().size(); ++p)
+    places[solid.id()[p]] = solid.points().position[p];
+  return places;
+}
+
 }  // namespace
 
 template <int Dim>
 void Failure<Dim>::start_inertia(double time) {
   solid_.start_inertia();
-  repeated_.fails(solid_.places(), mean_size(grid_.mesh));
+  repeated_.fails(places_by_id(solid_), mean_size(grid_.mesh));
   time_ = time;
   rested_ = 0.0;
 }

@@ -44,9 +44,11 @@ std::string quoted(const std::string& word) {
 }
 
 /// The plan on this rank.
-ModelOptions options_of(const Plan& plan, const std::shared_ptr<const RankPart>& part) {
+ModelOptions options_of(const Plan& plan, const std::shared_ptr<const RankPart>& part,
+                        bool is_resumed) {
   ModelOptions options = plan;
   options.part = part;
+  if (is_resumed) options.soil_start = SoilStart::stress_later;
   return options;
 }
 
@@ -68,7 +70,8 @@ class Run final : public OutputSink<Dim> {
         case_digest_(digest_of(case_)),
         folder_(starting_point.folder),
         part_(take_part()),
-        loop_(local_case_ ? *local_case_ : case_, options_of(plan, part_),
+        loop_(local_case_ ? *local_case_ : case_,
+              options_of(plan, part_, starting_point.from.has_value()),
               source ? &source->state : nullptr),
         notes_{.checks = {case_.document.scene, plan.speed_that_drag_follows, plan.obtuse_elements},
                .origin = source ? source->sentences : std::vector<std::string>()},

@@ -58,6 +58,12 @@ struct OutputRows {
   std::vector<SectionRow> sections;
 };
 
+/// The options of a model whose state is set after it is made.
+inline ModelOptions with_later_stress(ModelOptions options) {
+  options.soil_start = SoilStart::stress_later;
+  return options;
+}
+
 template <int Dim>
 class RunLoop {
  public:
@@ -65,7 +71,7 @@ class RunLoop {
   /// case.
   RunLoop(const Case<Dim>& c, const ModelOptions& options,
           const EarlierState<Dim>* earlier = nullptr)
-      : model_(make_model(c, options)),
+      : model_(make_model(c, earlier ? with_later_stress(options) : options)),
         schedule_(c.document.scene),
         end_(c.document.scene.time.end) {
     if (earlier) model_->start_from(*earlier);

@@ -1,6 +1,5 @@
 #include "driver/source_run.hpp"
 
-#include <cmath>
 #include <filesystem>
 
 #include "common/errors.hpp"
@@ -8,87 +7,14 @@
 #include "driver/run_notes.hpp"
 #include "files/layout.hpp"
 #include "results/reader.hpp"
-#include "scene/law_texts.hpp"
 #include "scene/scene_difference.hpp"
 #include "scene/scene_schema.hpp"
+#include "scene/stage_scenes.hpp"
 
 namespace suffuse {
 namespace {
 
 constexpr const char* source_key = "initial.from";
-
-/// Compares the keys that must be equal in both scenes. Problems name the key of the later scene.
-class Comparison {
- public:
-  Comparison(const SceneDocument& here, const Scene& there, std::string folder)
-      : here_(here), there_(there), folder_(std::move(folder)) {}
-
-  void run() {
-    const Scene& scene = here_.scene;
-    const bool same_formulation = scene.formulation == there_.formulation;
-    if (!same_formulation) report("formulation", "another one");
-    same("liquid.density", scene.liquid.density, there_.liquid.density);
-    same("liquid.bulk_modulus", scene.liquid.bulk_modulus, there_.liquid.bulk_modulus);
-    for (const Soil& soil : scene.soils) compare(soil);
-    for (const Soil& soil : there_.soils) {
-      if (scene.find_soil(soil.region) == nullptr) report(table_of(soil), "no such soil");
-    }
-    if (!problems_.empty()) throw InputError(std::move(problems_));
-  }
-
- private:
-  static std::string table_of(const Soil& soil) { return joined("soil", shown_name(soil.region)); }
-
-  void compare(const Soil& soil) {
-    const Soil* other = there_.find_soil(soil.region);
-    const std::string table = table_of(soil);
-    if (other == nullptr) {
-      report(table, "a soil");
-      return;
-    }
-    same(table + ".porosity", soil.porosity, other->porosity);
-    same(table + ".skeleton_fraction", soil.skeleton_fraction, other->skeleton_fraction);
-    same(table + ".grain_density", soil.grain_density, other->grain_density);
-    if (soil.porosity_gradient != other->porosity_gradient ||
-        soil.porosity_origin != other->porosity_origin) {
-      report(table + ".porosity_gradient", "another one");
-    }
-    const auto& a = soil.retention;
-    const auto& b = other->retention;
-    bool same_retention = a.law == b.law && a.residual_saturation == b.residual_saturation;
-    if (same_retention && a.law != nullptr) {
-      for (const RetentionParameter& parameter : retention_parameters()) {
-        same_retention =
-            same_retention && equal(a.parameters.*parameter.value, b.parameters.*parameter.value);
-      }
-    }
-    if (!same_retention) report(table + ".retention", "another one");
-  }
-
-  static bool equal(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
-  void same(const std::string& name, double here, double there) {
-    if (equal(here, there)) return;
-    problems_.push_back({.where = here_.locate(name),
-                         .key = name,
-                         .found = shown_number(here),
-                         .expected = shown_number(there) + ", as in " + folder_ +
-                                     ", from whose state the run starts",
-                         .suggestion = ""});
-  }
-  void report(const std::string& name, const std::string& found) {
-    problems_.push_back(
-        {.where = here_.locate(name),
-         .key = name,
-         .found = found,
-         .expected = "the same as in " + folder_ + ", from whose state the run starts",
-         .suggestion = ""});
-  }
-
-  const SceneDocument& here_;
-  const Scene& there_;
-  std::string folder_;
-  std::vector<InputProblem> problems_;
-};
 
 [[noreturn]] void refuse_source(const SceneDocument& document, const std::string& found,
                                 const std::string& expected) {
@@ -99,6 +25,7 @@ class Comparison {
 template <int Dim>
 EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, const SolverOptions& options) {
   Plan plan = make_plan(c, {options.threads, point.no_skip});
+  plan.soil_start = SoilStart::stress_later;
   const OwnPart<Dim> taken = own_part(c, options.ranks);
   plan.part = taken.part;
   RunLoop<Dim> loop(taken.own ? *taken.own : c, plan);
@@ -112,11 +39,15 @@ EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, const SolverO
 }  // namespace
 
 template <int Dim>
-bool have_same_points(const Case<Dim>& a, const Case<Dim>& b) {
+bool have_same_mesh(const Case<Dim>& a, const Case<Dim>& b) {
   return a.mesh.nodes == b.mesh.nodes && a.mesh.elements == b.mesh.elements &&
          a.mesh.element_region == b.mesh.element_region &&
-         a.mesh.region_names == b.mesh.region_names &&
-         a.solid_points.element == b.solid_points.element &&
+         a.mesh.region_names == b.mesh.region_names;
+}
+
+template <int Dim>
+bool have_same_points(const Case<Dim>& a, const Case<Dim>& b) {
+  return have_same_mesh(a, b) && a.solid_points.element == b.solid_points.element &&
          a.solid_points.barycentric == b.solid_points.barycentric &&
          a.solid_points.volume == b.solid_points.volume;
 }
@@ -138,15 +69,20 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, const SolverOp
   }
   const Case<Dim> earlier = read_case<Dim>(layout::in_folder(folder, layout::case_copy));
   const Scene& scene = earlier.document.scene;
-  if (scene.moves()) {
+  if (scene.moves() && !document.scene.moves()) {
     refuse_source(document, shown + ", whose soil has moved",
-                  "a run whose skeletons are rigid: --resume goes on with a run of another kind");
+                  "a scene with a skeleton that moves, or a run whose skeletons are rigid");
   }
-  Comparison(document, scene, folder).run();
-  if (!have_same_points(earlier, c)) {
+  refuse_other_soils(document, scene, folder);
+  if (!(scene.moves() ? have_same_mesh(earlier, c) : have_same_points(earlier, c))) {
     refuse_source(document, shown + ", whose mesh or solid points differ",
                   "a run on the same mesh and points: the keys of [geometry], [mesh] and "
                   "points.solid_per_element as there");
+  }
+  const std::vector<std::string> stages = construction(document.scene, scene, c.mesh.region_names);
+  if (!stages.empty() && scene.formulation == Formulation::double_point) {
+    refuse_source(document, shown + ", after which " + stages.front(),
+                  "the regions of soil as there, or formulation = \"single-point\"");
   }
   FoundRestart found = newest_restart_point(folder, scene.formulation == Formulation::double_point,
                                             table_files(scene, earlier.mesh.region_names.size()));
@@ -163,7 +99,12 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, const SolverOp
   for (const std::string& difference : scene_differences(earlier.document, document)) {
     result.sentences.push_back("differs: " + difference);
   }
+  for (const std::string& stage : stages) result.sentences.push_back("construction: " + stage);
   result.state = restored(earlier, std::move(*found.point), options);
+  if (result.state.moved && result.state.moved->has_inertia) {
+    refuse_source(document, shown + ", whose soil still moves at its end",
+                  "a run that ends in equilibrium: let it go on to a later time.end with --resume");
+  }
   return result;
 }
 

@@ -41,8 +41,8 @@ std::vector<double> drag_losses(const Scene& scene, const Grid<Dim>& grid,
   return result;
 }
 
-/// First step of soil that falls from the start, over its time of fall through an element.
-constexpr double first_step_of_fall = 1e-2;
+/// First step of soil that moves from the start, over the time of its change.
+constexpr double first_step_of_soil = 1e-2;
 
 /// The last flow of another run.
 template <int Dim>
@@ -131,8 +131,8 @@ void ImplicitFlow<Dim>::start_steps(const MovingSolid& solid) {
   const double of_run = implicit_thresholds.first_step * this->scene().time.end;
   const double of_liquid = shortest_change({});
   const double shortest = shortest_change(solid.compressibility);
-  const double of_fall = first_step_of_fall * solid.time_of_fall;
-  const double of_change = of_fall > 0.0 ? of_fall : starts_at_rest() ? of_liquid : shortest;
+  const double of_soil = first_step_of_soil * solid.time_of_change;
+  const double of_change = of_soil > 0.0 ? of_soil : starts_at_rest() ? of_liquid : shortest;
   // Loads, and with them pressures, may change suddenly.
   control_.start(std::min(of_run, of_change), false, shortest);
 }

@@ -45,7 +45,7 @@ void DoublePoint<Dim>::start_liquid() {
   const double modulus = this->scene().liquid.bulk_modulus;
   const auto start_flow = [&] {
     update_flow(clean_pores());
-    this->coupled_->start();
+    this->coupled_->start(this->options_.soil_start);
     this->start_flux_history();
   };
   // The explicit scheme exists only for triangles.
@@ -70,14 +70,16 @@ void DoublePoint<Dim>::start_liquid() {
 
 template <int Dim>
 void DoublePoint<Dim>::start_from(const EarlierState<Dim>& earlier) {
+  this->start_solid(earlier);
   liquid_->start_from(earlier.liquid, earlier.flow.state);
-  this->start_solid_and_flow(earlier, [this] { update_flow(pores()); });
+  this->start_flow(earlier, [this] { update_flow(pores()); });
   this->masses_.open(stored());
 }
 
 template <int Dim>
 EarlierState<Dim> DoublePoint<Dim>::last_state() const {
   return {.solid = this->solid_->state(),
+          .moved = this->last_moved(),
           .flow = this->flow_->last_flow(this->time_),
           .liquid = liquid_->last_liquid()};
 }

@@ -1,17 +1,20 @@
 #pragma once
 
-/// The last state of a run, from which another run starts on the same mesh and points.
+/// The last state of a run, from which another run starts on the same mesh.
+
+#include <optional>
 
 #include "field/eulerian.hpp"
 #include "flow/flow_solver.hpp"
+#include "motion/moved_soil.hpp"
 #include "points/point_transport.hpp"
-#include "solid/skeleton.hpp"
 
 namespace suffuse {
 
 template <int Dim>
 struct EarlierState {
   SolidState solid = {};
+  std::optional<MovedSoil<Dim>> moved = {};  ///< in the place of `solid`, if the skeleton moves
   EarlierFlow<Dim> flow = {};
 
   // Single-point.

@@ -48,7 +48,7 @@ SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
       this->grid_, this->soils_, this->flow_->conditions(), this->flow_->boundary_values(),
       field_settings(this->scene(), options), options.flow.threads);
   update_flow();
-  this->coupled_->start();
+  this->coupled_->start(options.soil_start);
   if (const std::vector<double> air = this->flow_->air(); !air.empty()) {
     fines_->start(air);
     update_flow();
@@ -61,11 +61,17 @@ SinglePoint<Dim>::SinglePoint(const Case<Dim>& c, const ModelOptions& options)
 
 template <int Dim>
 void SinglePoint<Dim>::start_from(const EarlierState<Dim>& earlier) {
-  fines_->start_from(earlier.fines);
-  this->start_solid_and_flow(earlier, [this, &earlier] {
-    this->flow_->update(this->time_, pores_with(earlier.flow.air_volume()), face_concentration());
+  EarlierState<Dim> state = earlier;
+  const std::vector<int> changed = this->start_solid(earlier);
+  fill_pores(
+      this->grid_, flow_soils(this->scene(), this->soils_, this->solid_->filling()),
+      this->scene().liquid, this->solid_->element_porosity(), earlier.flow, changed,
+      {state.fines.liquid_volume, state.fines.fines_volume, state.flow.air, state.water_mass});
+  fines_->start_from(state.fines);
+  this->start_flow(state, [this, &state] {
+    this->flow_->update(this->time_, pores_with(state.flow.air_volume()), face_concentration());
   });
-  water_mass_ = earlier.water_mass;
+  water_mass_ = std::move(state.water_mass);
   match_masses();
   this->masses_.open(stored());
 }
@@ -73,6 +79,7 @@ void SinglePoint<Dim>::start_from(const EarlierState<Dim>& earlier) {
 template <int Dim>
 EarlierState<Dim> SinglePoint<Dim>::last_state() const {
   return {.solid = this->solid_->state(),
+          .moved = this->last_moved(),
           .flow = this->flow_->last_flow(this->time_),
           .fines = fines_->state(),
           .water_mass = water_mass_};

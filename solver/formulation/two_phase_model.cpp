@@ -90,6 +90,18 @@ void TwoPhaseModel<Dim>::set_flow(std::unique_ptr<FlowSolver<Dim>> flow) {
 }
 
 template <int Dim>
+std::vector<int> TwoPhaseModel<Dim>::start_solid(const EarlierState<Dim>& earlier) {
+  if (!earlier.moved) {
+    solid_->start_from(earlier.solid);
+    return {};
+  }
+  MovingSkeleton<Dim>& moving = *solid_phase_.moving;
+  NextStage<Dim> stage = next_stage(grid_.mesh, moving.moved(), *earlier.moved);
+  moving.start_from(std::move(stage.soil));
+  return stage.changed;
+}
+
+template <int Dim>
 void TwoPhaseModel<Dim>::start_flux_history() {
   flux_history_.mean = flux_history_.end = flow_->face_flux(0.0);
   flow_->warn_of_suction(0.0);

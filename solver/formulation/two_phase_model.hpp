@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/construction_stage.hpp"
 #include "coupling/coupled_flow.hpp"
 #include "field/solid_exchange.hpp"
 #include "field/transport.hpp"
@@ -29,6 +30,8 @@ struct ModelOptions {
   /// Times between which the solid can change, and after which the liquid can hold fines, s.
   TimeSpan erosion_span;
   double fines_from = -std::numeric_limits<double>::infinity();
+  /// Later: `start_from` or `archive` follows.
+  SoilStart soil_start = SoilStart::finds_stress;
   /// The part of this rank, to which the case belongs; null: this program is alone.
   std::shared_ptr<const RankPart> part;
 };
@@ -40,8 +43,9 @@ class TwoPhaseModel {
   TwoPhaseModel(const TwoPhaseModel&) = delete;
   TwoPhaseModel& operator=(const TwoPhaseModel&) = delete;
 
-  /// Replaces the initial state by the last state of another run with the same formulation, mesh
-  /// and solid points. Time stays 0, and the accounts start with these masses.
+  /// Replaces the initial state by the last state of another run with the same formulation and
+  /// mesh, and the same solid points unless they have moved. Time stays 0, and the accounts start
+  /// with these masses.
   virtual void start_from(const EarlierState<Dim>& earlier) = 0;
   /// The present state, for another run.
   [[nodiscard]] virtual EarlierState<Dim> last_state() const = 0;
@@ -111,12 +115,19 @@ class TwoPhaseModel {
   void set_flow(std::unique_ptr<FlowSolver<Dim>> flow);
   /// To be called when the flow has started.
   void start_flux_history();
-  /// Starts solid and flow from another run; `update` sets the pores of the flow.
+  /// Starts the solid from another run. Returns the elements whose soil was dug out or filled in.
+  std::vector<int> start_solid(const EarlierState<Dim>& earlier);
+  /// The soil for another run; nothing if it does not move.
+  [[nodiscard]] std::optional<MovedSoil<Dim>> last_moved() const {
+    if (!solid_phase_.moving) return std::nullopt;
+    return solid_phase_.moving->moved();
+  }
+  /// Starts the flow from another run, after the solid; `update` sets the pores of the flow.
   template <class Update>
-  void start_solid_and_flow(const EarlierState<Dim>& earlier, const Update& update) {
-    solid_->start_from(earlier.solid);
+  void start_flow(const EarlierState<Dim>& earlier, const Update& update) {
     update();
-    coupled_->start_from(earlier.flow);
+    coupled_->start_from(earlier.flow,
+                         earlier.moved ? SoilStart::has_stress : SoilStart::finds_stress);
     update();
     start_flux_history();
   }

@@ -23,6 +23,9 @@ class CrossingForces {
   /// \param diffusivity  c_v = k E_oed/gamma_w per element, m2/s; not used where there is no soil
   void find(const Grid<Dim>& grid, const PointsByElement& sorted, const Equilibrium<Dim>& moved,
             const NodeVectors<Dim>& loads, const std::vector<double>& diffusivity);
+  [[nodiscard]] bool empty() const { return force_.empty(); }
+  /// Time in which the fastest of them fades, s; 0 if none does.
+  [[nodiscard]] double fading_time() const;
   /// Keeps the forces as they are: they do not fade.
   void keep() { std::ranges::fill(fading_, 0.0); }
   /// Adds the forces that remain after `duration`, s.

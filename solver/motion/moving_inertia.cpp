@@ -34,30 +34,52 @@ SoilExtent extent_of(const SolidPoints<Dim>& points, const Supports<Dim>& suppor
   return extent;
 }
 
-}  // namespace
-
+/// Norm of the loads of a step; with gravity that of the weight of the nodes, N.
 template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::node_masses() const {
-  std::vector<double> of_point = solid_volumes();
-  for (int p = 0; p < points_.size(); ++p) {
-    const double liquid = points_.volume[p] - of_point[p];
-    of_point[p] = of_point[p] * this->soils().soil_of_point(p).grain_density +
-                  liquid * this->soils().scene().liquid.density;
-  }
-  return PointVelocities<Dim>(points_.size()).to_nodes(this->grid_, points_, of_point).mass;
+double load_norm(const Scene& scene, const MotionStep<Dim>& step) {
+  if (!has_gravity(scene.gravity)) return norm<Dim>(step.loads);
+  double squared = 0.0;
+  for (const double mass : step.nodes.mass) squared += mass * mass;
+  return acceleration(scene.gravity) * std::sqrt(squared);
 }
+
+/// Kinetic energy of points that have moved in a time, J; `mass` in kg, `before` and `after` in m.
+template <int Dim>
+double kinetic_energy(const std::vector<double>& mass, const std::vector<Vector<Dim>>& before,
+                      const std::vector<Vector<Dim>>& after, double duration) {
+  double sum = 0.0;
+  for (std::size_t p = 0; p < mass.size(); ++p)
+    sum += mass[p] * (after[p] - before[p]).squaredNorm();
+  return 0.5 * sum / (duration * duration);
+}
+
+/// Mass of soil with the liquid in its pores, per node, kg.
+/// \param mass  of the solid, kg per point
+template <int Dim>
+std::vector<double> node_masses(const Skeleton<Dim>& soil, const Grid<Dim>& grid,
+                                const SolidPoints<Dim>& points, std::vector<double> mass) {
+  for (int p = 0; p < points.size(); ++p) {
+    const double liquid = points.volume[p] - soil.state().solid_volume(p);
+    mass[p] += liquid * soil.soils().scene().liquid.density;
+  }
+  return PointVelocities<Dim>(points.size()).to_nodes(grid, points, mass).mass;
+}
+
+}  // namespace
 
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::compressibility(double duration) const {
   std::vector<double> result = drained_compressibility();
   if (!inertia_.acts()) return result;
-  return held_compressibility(this->grid_, std::move(result), node_masses(), duration);
+  return held_compressibility(this->grid_, std::move(result),
+                              node_masses(*this, this->grid_, points_, solid_masses({})), duration);
 }
 
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::inertial_mobility(double duration) const {
   if (!inertia_.acts()) return {};
-  return held_mobility(this->grid_, drained_compressibility(), node_masses(), duration);
+  return held_mobility(this->grid_, drained_compressibility(),
+                       node_masses(*this, this->grid_, points_, solid_masses({})), duration);
 }
 
 template <int Dim>
@@ -74,36 +96,18 @@ template <int Dim>
 SoilKinetics MovingSkeleton<Dim>::kinetics(const MotionStep<Dim>& step,
                                            const std::vector<Vector<Dim>>& before) const {
   const std::vector<double> mass = moved_masses(step);
-  const double duration = step.forcing.duration;
-  double sum = 0.0;
-  for (int p = 0; p < points_.size(); ++p) {
-    sum += mass[p] * (points_.position[p] - before[p]).squaredNorm();
-  }
-  return {.energy = 0.5 * sum / (duration * duration),
+  return {.energy = kinetic_energy<Dim>(mass, before, points_.position, step.forcing.duration),
           .soil = extent_of(points_, supports_, this->soils().scene(), mass, step.loads)};
 }
 
 template <int Dim>
 SoilKinetics MovingSkeleton<Dim>::take_velocities(const MotionStep<Dim>& step) {
   const Scene& scene = this->soils().scene();
-  double loads = norm<Dim>(step.loads);
-  if (has_gravity(scene.gravity)) {
-    double squared = 0.0;
-    for (const double mass : step.nodes.mass) squared += mass * mass;
-    loads = acceleration(scene.gravity) * std::sqrt(squared);
-  }
-  const double share = step.equilibrium->equilibrium().inertia_norm() / loads;
+  const double share = step.equilibrium->equilibrium().inertia_norm() / load_norm(scene, step);
   const double energy =
       inertia_.take(this->grid_, points_, step.nodes, step.equilibrium->displacement(), step.mass,
                     step.forcing.duration, step.motion.travel, share);
   return {energy, share, extent_of(points_, supports_, scene, step.mass, step.loads)};
-}
-
-template <int Dim>
-std::vector<Vector<Dim>> MovingSkeleton<Dim>::places() const {
-  std::vector<Vector<Dim>> result(points_.size());
-  for (int p = 0; p < points_.size(); ++p) result[id_[p]] = points_.position[p];
-  return result;
 }
 
 template class MovingSkeleton<2>;

@@ -65,14 +65,17 @@ void show(const ShownPoints<Dim>& shown, Snapshot& snapshot) {
   snapshot.solid.push_back(std::move(internal));
 }
 
-}  // namespace
-
 template <int Dim>
-void MovingSkeleton<Dim>::check_pores(const MotionStep<Dim>& step) const {
-  refuse_compressed<Dim>(this->grid_, this->soils(),
-                         {points_, solid_volumes(), this->initial_porosity_,
-                          step.equilibrium->law_increments(), step.forcing.end});
+void add_displacements(const std::vector<Vector<Dim>>& start, const std::vector<Vector<Dim>>& now,
+                       const Vector<Dim>& down, HistoryRow& row) {
+  for (std::size_t p = 0; p < now.size(); ++p) {
+    const Vector<Dim> displacement = now[p] - start[p];
+    row.settlement_max = std::max(row.settlement_max, displacement.dot(down));
+    row.displacement_max = std::max(row.displacement_max, displacement.norm());
+  }
 }
+
+}  // namespace
 
 template <int Dim>
 void MovingSkeleton<Dim>::sort_points(double time) {
@@ -114,20 +117,16 @@ void MovingSkeleton<Dim>::find_filling() {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
   // Smoothed by nodes, as the drag would otherwise jump when points leave an element.
-  filling_ = soil_filling(this->grid_, classes, smooth(points_.volume), smooth(solid_volumes()));
+  filling_ = soil_filling(this->grid_, classes, smooth(points_.volume),
+                          smooth(this->state_.solid_volumes()));
 }
 
 // ---------------------------------------------------------------------------------------- results
 
 template <int Dim>
 void MovingSkeleton<Dim>::describe(HistoryRow& row) const {
-  const Scene& scene = movable_soils_.scene();
-  const Vector<Dim> down = downwards<Dim>(scene.gravity);
-  for (int p = 0; p < points_.size(); ++p) {
-    const Vector<Dim> displacement = points_.position[p] - start_[p];
-    row.settlement_max = std::max(row.settlement_max, displacement.dot(down));
-    row.displacement_max = std::max(row.displacement_max, displacement.norm());
-  }
+  add_displacements<Dim>(start_, points_.position, downwards<Dim>(movable_soils_.scene().gravity),
+                         row);
   row.solid_correction = correction_;
   row.inertia = inertia_.share();
   row.newton_iterations = static_cast<double>(newton_iterations_);

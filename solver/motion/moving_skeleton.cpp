@@ -112,18 +112,11 @@ void MovingSkeleton<Dim>::deposit(const std::vector<double>& volume) {
 
 template <int Dim>
 void MovingSkeleton<Dim>::start_from(const SolidState& state) {
-  std::vector<double> gain = solid_volumes();
+  std::vector<double> gain = this->state_.solid_volumes();
   ErodingSkeleton<Dim>::start_from(state);
-  const std::vector<double> now = solid_volumes();
+  const std::vector<double> now = this->state_.solid_volumes();
   for (std::size_t p = 0; p < gain.size(); ++p) gain[p] = now[p] - gain[p];
   add_to_elements(gain);
-}
-
-template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::solid_volumes() const {
-  std::vector<double> result(points_.size());
-  for (int p = 0; p < points_.size(); ++p) result[p] = this->state_.solid_volume(p);
-  return result;
 }
 
 template <int Dim>
@@ -188,7 +181,7 @@ std::vector<double> MovingSkeleton<Dim>::drained_compressibility() const {
 
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::solid_masses(const std::vector<double>& loss) const {
-  std::vector<double> mass = solid_volumes();
+  std::vector<double> mass = this->state_.solid_volumes();
   for (int p = 0; p < points_.size(); ++p) {
     const double lost = loss.empty() ? 0.0 : loss[p];
     mass[p] = (mass[p] - lost) * this->soils().soil_of_point(p).grain_density;
@@ -320,7 +313,7 @@ template <int Dim>
 std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim> step) {
   if (!step.motion.converged) throw std::logic_error("there is no motion to commit");
   const StepEquilibrium<Dim>& equilibrium = *step.equilibrium;
-  const std::vector<double> volume = solid_volumes();
+  const std::vector<double> volume = this->state_.solid_volumes();
   const std::vector<double> before = smooth(volume);
   boundary_loads_.move(equilibrium.sorted(), equilibrium.displacement());
   const std::vector<int> element = points_.element;
@@ -351,7 +344,7 @@ void MovingSkeleton<Dim>::find_crossing_forces(const MotionStep<Dim>& step) {
   const ElementClasses classes(this->grid_, points_, sorted);
   Equilibrium<Dim> moved({this->grid_, points_, sorted, step.equilibrium->skeleton(), classes},
                          supports_, this->threads_);
-  std::vector<double> porosity = solid_volumes();
+  std::vector<double> porosity = this->state_.solid_volumes();
   for (int p = 0; p < points_.size(); ++p) porosity[p] = 1.0 - porosity[p] / points_.volume[p];
   moved.set_pressure(step.pressure);
   moved.displace(NodeVectors<Dim>(this->grid_.mesh.node_count(), Vector<Dim>::Zero()), false);
@@ -365,7 +358,7 @@ void MovingSkeleton<Dim>::find_crossing_forces(const MotionStep<Dim>& step) {
 template <int Dim>
 void MovingSkeleton<Dim>::carry_solid(const std::vector<double>& smooth_before,
                                       SolidMotion& motion) {
-  const std::vector<double> smooth_after = smooth(solid_volumes());
+  const std::vector<double> smooth_after = smooth(this->state_.solid_volumes());
   std::vector<char> has_solid(solid_.size());
   for (std::size_t e = 0; e < solid_.size(); ++e) {
     if (supports_.is_rigid(static_cast<int>(e))) continue;  // its solid does not move

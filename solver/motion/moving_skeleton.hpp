@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "boundary/boundary_loads.hpp"
-#include "motion/crossing_forces.hpp"
 #include "motion/motion_step.hpp"
+#include "motion/moved_soil.hpp"
 #include "motion/region_gains.hpp"
 #include "motion/soil_inertia.hpp"
 #include "motion/solid_flux.hpp"
@@ -38,6 +38,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) override;
   void deposit(const std::vector<double>& volume) override;
   void start_from(const SolidState& state) override;
+  /// Takes soil that another run has left, with its stress. Places and plastic strains count from
+  /// here.
+  void start_from(MovedSoil<Dim> earlier);
+  /// The present soil, for another run.
+  [[nodiscard]] MovedSoil<Dim> moved() const;
   void archive(StateArchive& archive) override;
 
   [[nodiscard]] bool moves() const override { return true; }
@@ -45,6 +50,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// of soil; both per element.
   StartStress start_motion(const std::vector<double>& pressure,
                            const std::vector<double>& liquid_mass);
+
+  /// Balances soil that was dug out or filled in, under pressures and masses as of `start_motion`:
+  /// the forces that have lost their balance fade as crossing forces do.
+  void balance_construction(const std::vector<double>& pressure,
+                            const std::vector<double>& liquid_mass);
 
   /// A step to be tried. It continues `last`, an earlier attempt from the same state, if that has
   /// the same equilibrium for given pressures.
@@ -58,8 +68,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// Whether soil that rests stays where it is under these pore pressures; the motion of the step
   /// is none then.
   bool stays(MotionStep<Dim>& step, const std::vector<double>& pressure) const;
-  /// Throws EquilibriumLost if the step leaves soil without pores.
-  void check_pores(const MotionStep<Dim>& step) const;
   /// Sets the velocities of points to those of the step, which has inertia; call before `commit`.
   SoilKinetics take_velocities(const MotionStep<Dim>& step);
   /// Moves points, and solid with them, as the step has found. Returns the motion, and its kinetics
@@ -93,13 +101,12 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] double longest_step() const { return inertia_.longest_step(); }
   /// Time in which soil falls through an element of mean size, s; 0 without gravity.
   [[nodiscard]] double time_of_fall() const { return time_of_fall_; }
+  /// Time in which forces out of balance fade, s; 0 if there are none.
+  [[nodiscard]] double time_of_release() const { return crossing_forces_.fading_time(); }
   /// Largest modulus of soil that cannot move sideways, Pa.
   [[nodiscard]] double stiffness() const;
   /// Largest change of tractions in the run, from those at the start, Pa.
   [[nodiscard]] double largest_load_change() const { return boundary_loads_.largest_change(); }
-  /// Places of the points in their order at the start, m.
-  [[nodiscard]] std::vector<Vector<Dim>> places() const;
-
   [[nodiscard]] std::vector<double> load_breakpoints() const override {
     return boundary_loads_.breakpoints();
   }
@@ -123,7 +130,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] PointSkeleton skeleton_of(int point, double fines_left) const;
   /// `erodible_volume`, m3, as a share of the erodible volume at the start.
   [[nodiscard]] double share_left(int point, double erodible_volume) const;
-  [[nodiscard]] std::vector<double> solid_volumes() const;
   /// `smooth_volumes` of the points' values, m3.
   [[nodiscard]] std::vector<double> smooth(const std::vector<double>& of_points) const {
     return smooth_volumes(this->grid_, points_, of_points, supports_.rigid_elements());
@@ -148,8 +154,12 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// E_oed per point, Pa; 0 if it does not move.
   [[nodiscard]] std::vector<double> moduli() const;
   [[nodiscard]] std::vector<double> drained_compressibility() const;
-  /// Mass of soil including the liquid in its pores, per node, kg.
-  [[nodiscard]] std::vector<double> node_masses() const;
+  /// What another run can go on with, in the order of MovedSoil::lasting.
+  static auto lasting(auto& skeleton) {
+    return std::tie(skeleton.state_, skeleton.points_, skeleton.region_, skeleton.initial_porosity_,
+                    skeleton.initial_erodible_, skeleton.solid_, skeleton.pressure_,
+                    skeleton.crossing_forces_, skeleton.held_share_);
+  }
   /// Sorts the data of points by element, and passes the points on to the soils.
   void sort_points(double time);
   void show_points();

@@ -22,6 +22,12 @@ struct SolidState {
   [[nodiscard]] double solid_volume(int point) const {
     return skeleton_volume[point] + erodible_volume[point];
   }
+  /// Of all points, m3.
+  [[nodiscard]] std::vector<double> solid_volumes() const {
+    std::vector<double> result = skeleton_volume;
+    for (std::size_t p = 0; p < result.size(); ++p) result[p] += erodible_volume[p];
+    return result;
+  }
   void archive(auto& archive) {
     archive(on_points(skeleton_volume), on_points(erodible_volume), on_points(deposited_volume));
   }

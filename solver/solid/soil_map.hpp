@@ -60,6 +60,13 @@ class SoilMap {
   [[nodiscard]] bool is_soil(int element) const {
     return soil_of_region_[region_of_element(element)] != free_water_.get();
   }
+  /// Per region of the mesh: whether it has a soil, at the start.
+  [[nodiscard]] std::vector<char> has_soil() const {
+    std::vector<char> result;
+    result.reserve(soil_of_region_.size());
+    for (const Soil* soil : soil_of_region_) result.push_back(soil != free_water_.get() ? 1 : 0);
+    return result;
+  }
   /// Space without soil: water, and air if some soil drains.
   [[nodiscard]] const Soil& free_space() const { return *free_water_; }
   [[nodiscard]] const Soil& soil_of_element(int element) const {

@@ -43,7 +43,8 @@ void refuse_without_strength(const SceneDocument& document) {
 }
 
 /// Snapshot of water and solid at t = 0, before any motion. The soil may be unable to carry its
-/// loads; it is therefore made rigid, or elastic if free water requires soil that moves.
+/// loads; it is therefore made rigid, or elastic if free water or an earlier run requires soil that
+/// moves.
 template <int Dim>
 Snapshot start_snapshot(const Case<Dim>& c, int threads) {
   Case<Dim> strong = c;
@@ -52,7 +53,8 @@ Snapshot start_snapshot(const Case<Dim>& c, int threads) {
   const auto has_no_soil = [&](const std::string& region) {
     return c.document.scene.is_free_water(region) && !scene.is_free_water(region);
   };
-  if (std::ranges::any_of(c.mesh.region_names, has_no_soil)) {
+  const bool has_moved = !scene.initial_from.empty();  // perhaps, in the run that it starts from
+  if (has_moved || std::ranges::any_of(c.mesh.region_names, has_no_soil)) {
     scene.soils = c.document.scene.soils;
     for (Soil& soil : scene.soils) {
       if (soil.skeleton.moves()) soil.skeleton.law = skeleton_law("elastic");

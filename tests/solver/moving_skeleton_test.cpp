@@ -170,7 +170,7 @@ TEST(MovingSkeleton, StaysAfterItsInertiaUntilAHundredthOfTheLoadsIsOutOfBalance
   b.commit();
   ASSERT_TRUE(b.solid.rests());
 
-  const std::vector<Vector<2>> places = b.solid.places();
+  const std::vector<Vector<2>> places = b.solid.points().position;
   const auto stays = [&](double pressure) {
     const Body::Forcing forcing = b.forcing(2.0, 1.0, pressure);
     b.step = b.solid.start_step(forcing, std::move(b.step));
@@ -180,7 +180,7 @@ TEST(MovingSkeleton, StaysAfterItsInertiaUntilAHundredthOfTheLoadsIsOutOfBalance
   ASSERT_TRUE(stays(0.7e3));
   EXPECT_EQ(b.commit().travel, 0.0);
   EXPECT_TRUE(b.solid.rests());
-  EXPECT_EQ(b.solid.places(), places);
+  EXPECT_EQ(b.solid.points().position, places);
   // What held the soil up counts from its rest on, not from step to step.
   EXPECT_FALSE(stays(1.5e3));
   ASSERT_TRUE(b.move(b.forcing(2.0, 1.0, 1.5e3)).converged);

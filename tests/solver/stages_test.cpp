@@ -318,6 +318,60 @@ TEST_F(FromEarlierOnce, UnsaturatedSoilKeepsItsWater) {
   expect_balanced(ledger);
 }
 
+struct MovedPoints {
+  std::vector<int> id;
+  std::vector<double> upwards;  ///< m
+};
+
+/// Displacements at the end of a run.
+MovedPoints moved_points(const std::string& folder) {
+  const ResultsReader results(folder);
+  const std::size_t last = results.times().size() - 1;
+  const Field displacement = results.field(last, "solid", "displacement");
+  MovedPoints points;
+  for (const double id : results.field(last, "solid", "id").values) {
+    points.upwards.push_back(displacement.values[2 * points.id.size() + 1]);
+    points.id.push_back(static_cast<int>(id));
+  }
+  return points;
+}
+
+TEST_F(FromEarlierOnce, SoilThatMovesGoesOnFromItsStressAndItsPlace) {
+  // The load is constant in the second half.
+  const test::Mode moving = test::moving_mode();
+  run_first(moving);
+  const std::string folder = place_.path("b.results");
+  solve(place_.make_case(second(moving, {"boundary[0].traction=[0.0, -3e4]"})), folder);
+  const std::string whole = place_.path("whole");
+  solve(case_until(moving, 5.0), whole);
+  // The second run numbers the points anew, in the order of the last snapshot of the first.
+  const MovedPoints before = moved_points(place_.path("a.results"));
+  const MovedPoints after = moved_points(folder);
+  const MovedPoints all_along = moved_points(whole);
+  double largest = 0.0;
+  double error = 0.0;
+  for (std::size_t i = 0; i < after.id.size(); ++i) {
+    const std::size_t j = after.id[i];
+    const auto found = std::ranges::find(all_along.id, before.id[j]);
+    const double in_whole = all_along.upwards[found - all_along.id.begin()];
+    largest = std::max(largest, std::abs(after.upwards[i]));
+    error = std::max(error, std::abs(before.upwards[j] + after.upwards[i] - in_whole));
+  }
+  EXPECT_GT(largest, 2e-3);
+  EXPECT_LT(error, 0.01 * largest);
+  const Table earlier = ResultsReader(place_.path("a.results")).ledger();
+  const Table ledger = ResultsReader(folder).ledger();
+  for (const char* column : {"solid", "erodible", "water", "fines"}) {
+    const double mass = earlier.column(column).back();
+    EXPECT_NEAR(ledger.column(column).front(), mass, 1e-12 * mass) << column;
+  }
+  expect_balanced(ledger);
+  const Table all = ResultsReader(whole).ledger();
+  EXPECT_NEAR(ledger.column("eroded").back(),
+              all.column("eroded").back() - earlier.column("eroded").back(),
+              2e-2 * ledger.column("eroded").back());
+}
+
 TEST_F(FromEarlierOnce, WhatDoesNotFitIsRefused) {
   const auto expect = [&](const std::vector<std::string>& sets, const std::string& message) {
     expect_refused(place_.make_case(second(mode(), sets)), place_.path("b.results"), {}, message);

@@ -1,0 +1,108 @@
+#include "scene/stage_scenes.hpp"
+
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "scene/law_texts.hpp"
+#include "scene/scene_schema.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Compares the keys that must be equal in both scenes. Problems name the key of the later scene.
+class Comparison {
+ public:
+  Comparison(const SceneDocument& here, const Scene& there, std::string folder)
+      : here_(here), there_(there), folder_(std::move(folder)) {}
+
+  void run() {
+    const Scene& scene = here_.scene;
+    const bool same_formulation = scene.formulation == there_.formulation;
+    if (!same_formulation) report("formulation", "another one");
+    same("liquid.density", scene.liquid.density, there_.liquid.density);
+    same("liquid.bulk_modulus", scene.liquid.bulk_modulus, there_.liquid.bulk_modulus);
+    for (const Soil& soil : scene.soils) compare(soil);
+    for (const Soil& soil : there_.soils) {
+      if (scene.find_soil(soil.region) != nullptr || may_change(soil.region)) continue;
+      report(table_of(soil), "no such soil");
+    }
+    if (!problems_.empty()) throw InputError(std::move(problems_));
+  }
+
+ private:
+  static std::string table_of(const Soil& soil) { return joined("soil", shown_name(soil.region)); }
+
+  [[nodiscard]] bool may_change(const std::string& region) const {
+    return here_.scene.moves() && there_.moves() &&
+           here_.scene.is_free_water(region) != there_.is_free_water(region);
+  }
+
+  void compare(const Soil& soil) {
+    const Soil* other = there_.find_soil(soil.region);
+    const std::string table = table_of(soil);
+    if (other == nullptr) {
+      if (!may_change(soil.region)) report(table, "a soil");
+      return;
+    }
+    same(table + ".porosity", soil.porosity, other->porosity);
+    same(table + ".skeleton_fraction", soil.skeleton_fraction, other->skeleton_fraction);
+    same(table + ".grain_density", soil.grain_density, other->grain_density);
+    if (soil.porosity_gradient != other->porosity_gradient ||
+        soil.porosity_origin != other->porosity_origin) {
+      report(table + ".porosity_gradient", "another one");
+    }
+    const auto& a = soil.retention;
+    const auto& b = other->retention;
+    bool same_retention = a.law == b.law && a.residual_saturation == b.residual_saturation;
+    if (same_retention && a.law != nullptr) {
+      for (const RetentionParameter& parameter : retention_parameters()) {
+        same_retention =
+            same_retention && equal(a.parameters.*parameter.value, b.parameters.*parameter.value);
+      }
+    }
+    if (!same_retention) report(table + ".retention", "another one");
+  }
+
+  static bool equal(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+  void same(const std::string& name, double here, double there) {
+    if (equal(here, there)) return;
+    problems_.push_back({.where = here_.locate(name),
+                         .key = name,
+                         .found = shown_number(here),
+                         .expected = shown_number(there) + ", as in " + folder_ +
+                                     ", from whose state the run starts",
+                         .suggestion = ""});
+  }
+  void report(const std::string& name, const std::string& found) {
+    problems_.push_back(
+        {.where = here_.locate(name),
+         .key = name,
+         .found = found,
+         .expected = "the same as in " + folder_ + ", from whose state the run starts",
+         .suggestion = ""});
+  }
+
+  const SceneDocument& here_;
+  const Scene& there_;
+  std::string folder_;
+  std::vector<InputProblem> problems_;
+};
+
+}  // namespace
+
+void refuse_other_soils(const SceneDocument& here, const Scene& there, const std::string& folder) {
+  Comparison(here, there, folder).run();
+}
+
+std::vector<std::string> construction(const Scene& here, const Scene& there,
+                                      const std::vector<std::string>& regions) {
+  std::vector<std::string> stages;
+  for (const std::string& region : regions) {
+    const bool has_soil = here.find_soil(region) != nullptr;
+    if (has_soil == (there.find_soil(region) != nullptr)) continue;
+    stages.push_back("region " + shown_value(region) + (has_soil ? " is filled" : " is dug out"));
+  }
+  return stages;
+}
+
+}  // namespace suffuse

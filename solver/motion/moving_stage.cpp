@@ -1,0 +1,44 @@
+/// A moving skeleton that starts as another run has left its soil.
+
+#include <algorithm>
+#include <numeric>
+
+#include "motion/moving_skeleton.hpp"
+
+namespace suffuse {
+
+template <int Dim>
+MovedSoil<Dim> MovingSkeleton<Dim>::moved() const {
+  MovedSoil<Dim> soil;
+  soil.lasting() = lasting(*this);
+  soil.has_inertia = has_inertia();
+  soil.surfaces = boundary_loads_.surfaces();
+  soil.has_soil = this->soils().has_soil();
+  return soil;
+}
+
+template <int Dim>
+void MovingSkeleton<Dim>::start_from(MovedSoil<Dim> earlier) {
+  lasting(*this) = earlier.lasting();
+  std::ranges::fill(points_.plastic_strain, 0.0);
+  start_ = points_.position;
+  id_.resize(points_.size());
+  std::iota(id_.begin(), id_.end(), 0);
+  boundary_loads_.place(earlier.surfaces);
+  if (this->soils().deposits()) this->state_.deposited_volume.resize(points_.size(), 0.0);
+  sort_points(0.0);
+}
+
+template <int Dim>
+void MovingSkeleton<Dim>::balance_construction(const std::vector<double>& pressure,
+                                               const std::vector<double>& liquid_mass) {
+  if (!crossing_forces_.empty()) return;  // nothing was built, and these keep the balance
+  MotionStep<Dim> step = start_step({.liquid_mass = liquid_mass});
+  step.pressure = pressure_ = pressure;
+  find_crossing_forces(step);
+}
+
+template class MovingSkeleton<2>;
+template class MovingSkeleton<3>;
+
+}  // namespace suffuse
