@@ -258,6 +258,9 @@ struct Scene {
   std::array<double, 3> gravity{};  ///< m/s2
   InitialFlow initial_flow = InitialFlow::rest;
   std::string initial_from;  ///< results folder whose last state is the initial one; may be empty
+  /// Time over which regions are dug out or filled in at the start, s; unset: by the end of the
+  /// run.
+  double construction = unset;
   /// Level of the liquid at rest, m above the datum: given, or the head of the boundaries at t = 0.
   std::optional<double> water_level;
   /// K_0: horizontal over vertical effective stress at the start; unset: equilibrium under gravity.
@@ -266,6 +269,10 @@ struct Scene {
   TimeSettings time;
   OutputSettings output;
 
+  /// See `construction`, s.
+  [[nodiscard]] double construction_time() const {
+    return std::isnan(construction) ? 0.01 * time.end : construction;
+  }
   /// Whether some soil has a skeleton that moves.
   [[nodiscard]] bool moves() const;
   [[nodiscard]] const Soil* find_soil(const std::string& region) const;

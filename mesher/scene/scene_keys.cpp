@@ -592,8 +592,16 @@ std::vector<SceneKey> declare_keys() {
           "Folder with the results of a run that is done, relative to the scene's folder: its last "
           "state is the initial one here, and the clock starts at 0 again. On the same mesh and "
           "points, with the same water, porosities, grains and retentions; boundaries, other laws, "
-          "gravity and the time scheme may differ.")
+          "gravity and the time scheme may differ. Soil that has moved goes on from its place and "
+          "its stress, and displacements count from here; a region that has a soil in one scene "
+          "and is free in the other is dug out or filled in, single-point only.")
           .otherwise_as("the state of `initial.flow`, with what the soils say"),
+      key("initial.construction", at(&Scene::construction),
+          "Time over which soil is unloaded where regions were dug out after the run that this one "
+          "starts from, and loaded where they were filled in.")
+          .in("s")
+          .above(0.0)
+          .otherwise_as("1 % of `time.end`"),
 
       key("flow.porosity_gradient_term", at(&Scene::flow, &FlowSettings::porosity_gradient_term),
           "Keep (v_L - v_S) . grad n_L in the balance of water. Without it water is lost wherever "

@@ -211,6 +211,24 @@ bedding      = 15.0
 [initial]
 water_level = 0.0
 )"},
+    Example{
+        "Excavation in stages",
+        "`ground.results` are of a scene in which `pit` has the soil of the ground. Here the pit "
+        "is dug within a day; a third scene may fill it again.",
+        R"([soil.body.skeleton]
+law      = "mohr-coulomb"
+young    = 2.0e7
+poisson  = 0.3
+friction = 25.0
+cohesion = 10.0e3
+
+[soil.pit]
+free = true
+
+[initial]
+from         = "ground.results"
+construction = 86400.0
+)"},
     Example{"What to record",
             "Pressure at a piezometer, and the discharge through a vertical line.",
             R"([[output.probe]]

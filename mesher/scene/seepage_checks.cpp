@@ -136,6 +136,10 @@ class SeepageChecks : private SceneCheckBase {
   /// Liquid at rest under gravity needs a known level: with p = 0 everywhere it would not be at
   /// rest.
   void check_start() const {
+    if (given("initial.construction") && !given("initial.from")) {
+      report("initial.construction", "a time without an earlier run",
+             "initial.from, or no such key");
+    }
     if (given("initial.from")) {
       for (const std::string other : {"initial.flow", "initial.water_level", "initial.stress"}) {
         if (!given(other)) continue;

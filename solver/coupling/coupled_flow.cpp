@@ -83,14 +83,16 @@ void FlowOfMovingSolid<Dim>::start(SoilStart how) {
       grid_, flow_.scheme().soils(), flow_.pressure(), coefficients.porosity, flow.air);
   const std::vector<double> mass = liquid_mass(grid_, coefficients, flow.air);
   if (how == SoilStart::finds_stress) failure_.start(solid_.start_motion(pressure, mass));
-  if (how == SoilStart::has_stress) solid_.balance_construction(pressure, mass);
+  if (how == SoilStart::has_stress) solid_.start_construction(pressure, mass);
+  const double of_construction =
+      how == SoilStart::has_stress ? solid_.soils().scene().construction_time() : 0.0;
+  const double time_of_change = failure_.has_inertia() ? solid_.time_of_fall() : of_construction;
   // Compressibility for a step as long as the run: inertia is then negligible, and soil is as soft
   // as when drained.
   flow_.start_steps({.load_change = solid_.largest_load_change(),
                      .stiffness = solid_.stiffness(),
                      .compressibility = solid_.compressibility(end_),
-                     .time_of_change = failure_.has_inertia() ? solid_.time_of_fall()
-                                                              : solid_.time_of_release()});
+                     .time_of_change = time_of_change});
 }
 
 template <int Dim>

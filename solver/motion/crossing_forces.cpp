@@ -28,15 +28,6 @@ void CrossingForces<Dim>::add(double duration, NodeVectors<Dim>& loads) const {
   }
 }
 
-template <int Dim>
-double CrossingForces<Dim>::fading_time() const {
-  double fastest = 0.0;
-  for (const double rate : fading_) {
-    if (std::isfinite(rate)) fastest = std::max(fastest, rate);
-  }
-  return fastest > 0.0 ? 1.0 / fastest : 0.0;
-}
-
 template class CrossingForces<2>;
 template class CrossingForces<3>;
 

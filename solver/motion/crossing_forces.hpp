@@ -3,6 +3,7 @@
 /// Forces out of balance because points have changed elements.
 
 #include <algorithm>
+#include <utility>
 
 #include "equilibrium/equilibrium.hpp"
 
@@ -24,8 +25,8 @@ class CrossingForces {
   void find(const Grid<Dim>& grid, const PointsByElement& sorted, const Equilibrium<Dim>& moved,
             const NodeVectors<Dim>& loads, const std::vector<double>& diffusivity);
   [[nodiscard]] bool empty() const { return force_.empty(); }
-  /// Time in which the fastest of them fades, s; 0 if none does.
-  [[nodiscard]] double fading_time() const;
+  /// The forces, N; none are left.
+  [[nodiscard]] NodeVectors<Dim> take() { return std::exchange(force_, {}); }
   /// Keeps the forces as they are: they do not fade.
   void keep() { std::ranges::fill(fading_, 0.0); }
   /// Adds the forces that remain after `duration`, s.

@@ -201,6 +201,7 @@ NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
   NodeVectors<Dim> result(this->grid_.mesh.node_count(), Vector<Dim>::Zero());
   add_weight(this->grid_, points_, sorted, classes, mass, soils.scene().gravity, result);
   boundary_loads_.add(sorted, forcing.end, result);
+  construction_.add(forcing.end, result);
   if (has_free_water_) {
     add_free_water(this->grid_, sorted, soil_volumes(points_, sorted, classes), pressure,
                    forcing.liquid_mass, soils.scene().gravity, result);
@@ -377,8 +378,8 @@ template <int Dim>
 void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   ErodingSkeleton<Dim>::archive(archive);
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
-          boundary_loads_, crossing_forces_, inertia_, held_share_, solid_, region_gain_, pressure_,
-          filling_, correction_, newton_iterations_);
+          boundary_loads_, crossing_forces_, construction_, inertia_, held_share_, solid_,
+          region_gain_, pressure_, filling_, correction_, newton_iterations_);
   if (!archive.restores()) return;
   show_points();
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "boundary/boundary_loads.hpp"
+#include "motion/construction_forces.hpp"
 #include "motion/motion_step.hpp"
 #include "motion/moved_soil.hpp"
 #include "motion/region_gains.hpp"
@@ -38,8 +39,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   void apply(const std::vector<Exchange>& change, std::vector<double>& exchange) override;
   void deposit(const std::vector<double>& volume) override;
   void start_from(const SolidState& state) override;
-  /// Takes soil that another run has left, with its stress. Places and plastic strains count from
-  /// here.
+  /// Takes the soil of another run. Places and plastic strains count from here.
   void start_from(MovedSoil<Dim> earlier);
   /// The present soil, for another run.
   [[nodiscard]] MovedSoil<Dim> moved() const;
@@ -51,10 +51,10 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   StartStress start_motion(const std::vector<double>& pressure,
                            const std::vector<double>& liquid_mass);
 
-  /// Balances soil that was dug out or filled in, under pressures and masses as of `start_motion`:
-  /// the forces that have lost their balance fade as crossing forces do.
-  void balance_construction(const std::vector<double>& pressure,
-                            const std::vector<double>& liquid_mass);
+  /// Balances soil that was dug out or filled in, under pressures and masses as of `start_motion`,
+  /// by construction forces.
+  void start_construction(const std::vector<double>& pressure,
+                          const std::vector<double>& liquid_mass);
 
   /// A step to be tried. It continues `last`, an earlier attempt from the same state, if that has
   /// the same equilibrium for given pressures.
@@ -101,15 +101,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] double longest_step() const { return inertia_.longest_step(); }
   /// Time in which soil falls through an element of mean size, s; 0 without gravity.
   [[nodiscard]] double time_of_fall() const { return time_of_fall_; }
-  /// Time in which forces out of balance fade, s; 0 if there are none.
-  [[nodiscard]] double time_of_release() const { return crossing_forces_.fading_time(); }
   /// Largest modulus of soil that cannot move sideways, Pa.
   [[nodiscard]] double stiffness() const;
   /// Largest change of tractions in the run, from those at the start, Pa.
   [[nodiscard]] double largest_load_change() const { return boundary_loads_.largest_change(); }
-  [[nodiscard]] std::vector<double> load_breakpoints() const override {
-    return boundary_loads_.breakpoints();
-  }
+  [[nodiscard]] std::vector<double> load_breakpoints() const override;
   [[nodiscard]] std::vector<double> region_gain() const override { return region_gain_.values(); }
   [[nodiscard]] const std::vector<SoilFilling>& filling() const override { return filling_; }
   void describe(HistoryRow& row) const override;
@@ -155,10 +151,9 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> moduli() const;
   [[nodiscard]] std::vector<double> drained_compressibility() const;
   /// What another run can go on with, in the order of MovedSoil::lasting.
-  static auto lasting(auto& skeleton) {
-    return std::tie(skeleton.state_, skeleton.points_, skeleton.region_, skeleton.initial_porosity_,
-                    skeleton.initial_erodible_, skeleton.solid_, skeleton.pressure_,
-                    skeleton.crossing_forces_, skeleton.held_share_);
+  static auto lasting(auto& s) {
+    return std::tie(s.state_, s.points_, s.region_, s.initial_porosity_, s.initial_erodible_,
+                    s.solid_, s.pressure_, s.crossing_forces_, s.held_share_);
   }
   /// Sorts the data of points by element, and passes the points on to the soils.
   void sort_points(double time);
@@ -180,6 +175,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   Supports<Dim> supports_;
   BoundaryLoads<Dim> boundary_loads_;
   CrossingForces<Dim> crossing_forces_;  ///< without inertia
+  ConstructionForces<Dim> construction_;
   SoilInertia<Dim> inertia_;
   double held_share_ = 0.0;  ///< of the loads, while the soil rests after its inertia; 0: it moves
   std::vector<double> solid_;  ///< per element, m3

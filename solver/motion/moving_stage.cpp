@@ -30,12 +30,21 @@ void MovingSkeleton<Dim>::start_from(MovedSoil<Dim> earlier) {
 }
 
 template <int Dim>
-void MovingSkeleton<Dim>::balance_construction(const std::vector<double>& pressure,
-                                               const std::vector<double>& liquid_mass) {
-  if (!crossing_forces_.empty()) return;  // nothing was built, and these keep the balance
+void MovingSkeleton<Dim>::start_construction(const std::vector<double>& pressure,
+                                             const std::vector<double>& liquid_mass) {
+  if (!crossing_forces_.empty()) return;  // nothing is built, and these keep the balance
   MotionStep<Dim> step = start_step({.liquid_mass = liquid_mass});
   step.pressure = pressure_ = pressure;
   find_crossing_forces(step);
+  construction_ = {crossing_forces_.take(), this->soils().scene().construction_time()};
+}
+
+template <int Dim>
+std::vector<double> MovingSkeleton<Dim>::load_breakpoints() const {
+  std::vector<double> times = boundary_loads_.breakpoints();
+  const Scene& scene = this->soils().scene();
+  if (!scene.initial_from.empty()) times.push_back(scene.construction_time());
+  return times;
 }
 
 template class MovingSkeleton<2>;

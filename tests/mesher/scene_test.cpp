@@ -354,6 +354,20 @@ TEST(Scene, has_no_free_water_in_a_single_point_scene) {
   EXPECT_TRUE(names_free_water("inflow"));
 }
 
+TEST(Scene, makes_regions_free) {
+  const std::string moves =
+      R"(soil.specimen.skeleton={law = "elastic", young = 1e7, poisson = 0.3})";
+  const std::string implicit = "time.scheme=implicit";
+  const Scene scene =
+      scene_of(least, {implicit, moves, R"(soil.pit={like = "specimen", free = true})"});
+  EXPECT_TRUE(scene.is_free_water("pit"));
+  EXPECT_EQ(scene.find_soil("pit"), nullptr);
+  const Scene filled =
+      scene_of(least, {implicit, moves, R"(soil.pit={like = "specimen", free = false})"});
+  EXPECT_FALSE(filled.is_free_water("pit"));
+  EXPECT_NE(filled.find_soil("pit"), nullptr);
+}
+
 TEST(Scene, takes_ergun_for_either_formulation) {
   EXPECT_EQ(scene_of(least, {"soil.specimen.drag=ergun"}).soils[0].drag, SoilDrag::ergun);
 }
@@ -814,7 +828,7 @@ TEST(SceneReference, has_parts_of_scenes_that_work) {
     }
     ++parts;
   }
-  EXPECT_EQ(parts, 9);
+  EXPECT_EQ(parts, 10);
 }
 
 std::string repeated(const std::string& text, int times) {
