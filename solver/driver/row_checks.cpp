@@ -37,7 +37,7 @@ std::vector<std::string> RowChecks::check(const HistoryRow& row) {
                                        check_packing(row),
                                        check_volume_defect(row),
                                        check_overshoot(row),
-                                       check_failure(row.failure_time)};
+                                       check_failure(row)};
   std::erase(warnings, "");
   return warnings;
 }
@@ -168,12 +168,20 @@ std::string RowChecks::check_overshoot(const HistoryRow& row) {
   return message.str();
 }
 
-std::string RowChecks::check_failure(double time) {
-  if (time == failure_warned_) return "";
-  failure_warned_ = time;
+std::string RowChecks::check_failure(const HistoryRow& row) {
   std::ostringstream message;
-  message << "the soil has lost its equilibrium at t = " << time
-          << " s; from there on it moves with its inertia, until it has come to rest";
+  if (row.failure_time != failure_warned_) {
+    failure_warned_ = row.failure_time;
+    falls_ = row.inertia > 0.0;
+    message << "the soil has lost its equilibrium at t = " << row.failure_time
+            << " s; from there on it moves with its inertia, until it has come to rest";
+    if (!falls_) message << ", by t = " << row.t << " s";
+  } else if (falls_ && row.inertia == 0.0) {
+    falls_ = false;
+    message << "the soil has come to rest by t = " << row.t << " s";
+  } else if (row.inertia > 0.0) {
+    falls_ = true;  // from the start on
+  }
   return message.str();
 }
 

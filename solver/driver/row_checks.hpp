@@ -28,7 +28,7 @@ class RowChecks {
 
   void archive(StateArchive& archive) {
     archive(scaling_warned_, momentum_warned_, compression_warned_, weight_warned_, defect_warned_,
-            overshoot_warned_, packing_warned_, failure_warned_);
+            overshoot_warned_, packing_warned_, failure_warned_, falls_);
   }
 
  private:
@@ -39,7 +39,7 @@ class RowChecks {
   std::string check_packing(const HistoryRow& row);
   std::string check_volume_defect(const HistoryRow& row);
   std::string check_overshoot(const HistoryRow& row);
-  std::string check_failure(double time);
+  std::string check_failure(const HistoryRow& row);
 
   const Scene& scene_;
   double speed_that_drag_follows_;
@@ -52,6 +52,7 @@ class RowChecks {
   bool overshoot_warned_ = false;
   bool packing_warned_ = false;
   double failure_warned_ = 0.0;  ///< time of the last reported failure, s
+  bool falls_ = false;           ///< soil that has failed was not at rest yet in the last row
 };
 
 }  // namespace suffuse

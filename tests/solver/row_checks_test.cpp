@@ -87,6 +87,31 @@ TEST_F(Rows, FinesThatDriveTheFlowAreToldOfOnce) {
   EXPECT_EQ(warning(with_fines(0.9, 0.1)), "");
 }
 
+TEST_F(Rows, SoilThatFailsAndComesToRestIsToldOf) {
+  const auto row = [](double t, double failure, double inertia) {
+    HistoryRow result;
+    result.t = t;
+    result.failure_time = failure;
+    result.inertia = inertia;
+    return result;
+  };
+  const std::string from_there =
+      " s; from there on it moves with its inertia, until it has come to rest";
+  EXPECT_EQ(warning(row(0.0, 0.0, 0.0)), "");
+  EXPECT_EQ(warning(row(2.0, 1.5, 0.2)),
+            "the soil has lost its equilibrium at t = 1.5" + from_there);
+  EXPECT_EQ(warning(row(3.0, 1.5, 0.1)), "");
+  EXPECT_EQ(warning(row(4.0, 1.5, 0.0)), "the soil has come to rest by t = 4 s");
+  EXPECT_EQ(warning(row(5.0, 1.5, 0.0)), "");
+  EXPECT_EQ(warning(row(7.0, 6.0, 0.0)),
+            "the soil has lost its equilibrium at t = 6" + from_there + ", by t = 7 s");
+  EXPECT_EQ(warning(row(8.0, 6.0, 0.0)), "");
+  RowChecks of_column(scene_, infinite);  // it falls from the start on
+  EXPECT_TRUE(of_column.check(row(0.0, 0.0, 0.0)).empty());
+  EXPECT_TRUE(of_column.check(row(1.0, 0.0, 0.4)).empty());
+  EXPECT_EQ(of_column.check(row(2.0, 0.0, 0.0)).size(), 1U);
+}
+
 TEST_F(Rows, WhatWasSaidIsRememberedAcrossAResume) {
   ASSERT_NE(warning(with_defect(30.0)), "");
   ASSERT_NE(warning(with_fines(0.9, 0.1)), "");

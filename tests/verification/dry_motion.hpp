@@ -9,6 +9,7 @@
 #include "equilibrium/newton.hpp"
 #include "equilibrium/point_velocities.hpp"
 #include "motion/point_motion.hpp"
+#include "motion/point_spacing.hpp"
 
 namespace suffuse::model {
 
@@ -135,6 +136,7 @@ InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
     velocities_.take(grid_, points, times<Dim>(1.0 / dt, solution.displacement), nodes.mass);
     move_points(grid_, skeleton, solution.displacement,
                 equilibrium.law_increments(solution.displacement), points, threads_);
+    space_points(grid_, supports_, solution.displacement, points);
     plan_next(result);
     return result;
   }

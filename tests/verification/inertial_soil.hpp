@@ -85,6 +85,23 @@ struct CollapseResult {
   int tries = 0;
   double volume = 0.0;  ///< relative to the initial one
   std::vector<Vector<2>> places;
+  std::vector<double> volumes;  ///< per point
+
+  /// Depth of the soil in a strip around x, of this width.
+  [[nodiscard]] double depth(double x, double strip) const {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      if (std::abs(places[p][0] - x) < 0.5 * strip) sum += volumes[p];
+    }
+    return sum / strip;
+  }
+  /// How far soil of this depth has run out: strips are an eighth of the column wide.
+  [[nodiscard]] double runout_of_depth(double least) const {
+    constexpr double strip = 0.125;
+    double x = 0.5 * strip;
+    while (depth(x + 0.125 * strip, strip) > least) x += 0.125 * strip;
+    return x - 1.0;
+  }
 };
 
 inline CollapseResult collapse(const Collapse& c) {
@@ -115,6 +132,7 @@ inline CollapseResult collapse(const Collapse& c) {
   result.time = m.time;
   result.volume = m.soil_volume() / before;
   result.places = m.points.position;
+  result.volumes = m.points.volume;
   std::vector<double> x;
   for (const Vector<2>& place : m.points.position) {
     x.push_back(place[0]);
