@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "common/short_number.hpp"
@@ -72,6 +73,9 @@ void complete_scene(Scene& scene, const std::string& path,
                     const std::function<bool(const std::string& key)>& given) {
   const bool drains = std::ranges::any_of(scene.soils, &Soil::drains);
   if (!given("time.stepping") && drains) scene.time.stepping = TimeStepping::monotone;
+  // Where air moves with the soil, it takes up what water expands by as it flows to lower
+  // pressures: over a long flood that was more than the pores of an element.
+  if (drains && scene.moves()) scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
   if (!given("name")) scene.name = std::filesystem::path(path).stem().string();
   if (!given("output.snapshot_every")) scene.output.snapshot_every = scene.output.every;
   if (!given("points.equal_volume") && scene.points.seeding == Seeding::gauss) {

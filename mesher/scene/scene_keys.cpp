@@ -288,7 +288,7 @@ std::vector<SceneKey> declare_keys() {
           .mandatory(),
       key("liquid.bulk_modulus", at(&Scene::liquid, &Liquid::bulk_modulus),
           "Bulk modulus of the water; the explicit scheme needs a finite one. `inf`: "
-          "incompressible.")
+          "incompressible, as water always is where soil with a retention moves.")
           .named("K")
           .in("Pa")
           .above(0.0)

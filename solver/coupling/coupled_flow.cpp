@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "coupling/moved_air.hpp"
+#include "mixed/implicit_thresholds.hpp"
 #include "motion/compressed_soil.hpp"
 
 namespace suffuse {
@@ -29,19 +30,29 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
     ++flow_.timing().calls;
     flow_.set_forcing(ahead, step.flow);
     const double end = step.flow.start + step.flow.dt;
-    const std::optional<Unsolved> why =
-        both_.solve(flow_.scheme(), {flow_.mixed_state(), flow_.pressure()},
-                    {.end = end,
-                     .duration = step.flow.dt,
-                     .porosity = interval.pores.of_points_at(end),
-                     .longest_travel = failure_.longest_travel()},
-                    step);
+    const auto find = [&] {
+      return both_.solve(flow_.scheme(), {flow_.mixed_state(), flow_.pressure()},
+                         {.end = end,
+                          .duration = step.flow.dt,
+                          .porosity = interval.pores.of_points_at(end),
+                          .longest_travel = failure_.longest_travel()},
+                         step);
+    };
+    std::optional<Unsolved> why = find();
     if (why && !flow_.is_shortest(step.flow)) {
       flow_.reject(step.flow);
     } else if (why) {
       failure_.step_unsolved(step.flow.start, *why);
       flow_.plan_anew(ahead, step.flow);
     } else if (flow_.accepts(ahead, step.flow)) {
+      for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats && !why; ++repeat) {
+        if (!flow_.let_out_expansion(step.flow)) break;
+        why = find();
+      }
+      if (why) {
+        flow_.reject(step.flow);
+        continue;
+      }
       check_pores(grid_, solid_, *step.motion);
       return step;
     }

@@ -322,6 +322,7 @@ void describe(const Scene& scene, const std::vector<std::string>& regions,
                  "(time.failure)"
                : "skip: inertia of the solid; the run stops where it loses its equilibrium "
                  "(time.failure)");
+    if (retains_air(scene)) say("skip: compressibility of the liquid, air is in the pores");
   } else {
     say("skip: motion of the solid, the skeleton is rigid");
   }

@@ -162,7 +162,10 @@ FlowStep<Dim> ImplicitFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
       if (is_shortest(step)) throw NumericalError(why->text);
       reject(step);
     } else if (accepts(interval, step)) {
-      let_out_expansion(step);
+      for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats; ++repeat) {
+        if (!let_out_expansion(step)) break;
+        step.found = solved(step);
+      }
       return step;
     }
   }

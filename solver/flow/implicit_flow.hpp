@@ -56,6 +56,9 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Whether the solution of the step is accurate enough; otherwise shortens the step. Throws as
   /// `solve` does.
   [[nodiscard]] bool accepts(const FlowInterval<Dim>& interval, FlowStep<Dim>& step);
+  /// Gives a long step sources that let out the expansion of water that moves to lower pressures,
+  /// where its elements could not hold it. Returns whether the step is to be solved again.
+  [[nodiscard]] bool let_out_expansion(FlowStep<Dim>& step) const;
   /// Shortens a step that has no solution. Throws as `solve` does.
   void reject(FlowStep<Dim>& step) { control_.reject(step.start, step.dt); }
   /// Plans the step again after the solid got inertia: at least as long as the last one, within the
@@ -108,9 +111,6 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::optional<Unsolved> try_step(const FlowInterval<Dim>& interval,
                                                  FlowStep<Dim>& step);
   [[nodiscard]] MixedStep<Dim> solved(const FlowStep<Dim>& step);
-  /// Solves a long step again with sources that let out the expansion of water that moves to lower
-  /// pressures, where its elements could not hold it.
-  void let_out_expansion(FlowStep<Dim>& step);
   /// Whether the flow follows its forcing at once: no compressibility, inertia or retention.
   [[nodiscard]] bool flows_at_once() const;
   [[nodiscard]] bool starts_at_rest() const;

@@ -105,7 +105,7 @@ Mismatch mismatch_of(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coeffic
         worst = e;
       }
     }
-    if (!fit.is_needed || result.of_pores <= max_eos_error) return;
+    if (result.of_pores <= max_eos_error) return;
     const double fits = liquid.density * coefficients.water_volume[worst] *
                         density_ratio(pressure[worst], liquid.bulk_modulus);
     refuse_misfit(grid, worst, fit.time, water_mass[worst], fits, pressure[worst]);
@@ -119,8 +119,7 @@ Mismatch mismatch_of(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coeffic
 template <int Dim>
 std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, double dt) const {
   if (std::isinf(this->scene().liquid.bulk_modulus) || scheme_.is_nonlinear()) return {};
-  // Steps of moving soil are short compared with the time in which the flow fills an element.
-  if (solid_.moves()) return {};
+  if (solid_.has_inertia()) return {};  // steps are short
   const std::vector<double>& holds = this->coefficients_.water_volume;
   // Use the flux of the step itself, as a flow from rest has none at its start.
   const Ranks& ranks = this->grid().ranks();
@@ -141,13 +140,11 @@ std::vector<double> ImplicitFlow<Dim>::excess_in(const MixedStep<Dim>& step, dou
 }
 
 template <int Dim>
-void ImplicitFlow<Dim>::let_out_expansion(FlowStep<Dim>& step) {
-  for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats; ++repeat) {
-    const std::vector<double> excess = excess_in(step.found, step.dt);
-    if (excess.empty()) return;
-    for (FlowForcing<Dim>& forcing : step.forcing) let_out(excess, step.dt, forcing.source);
-    step.found = solved(step);
-  }
+bool ImplicitFlow<Dim>::let_out_expansion(FlowStep<Dim>& step) const {
+  const std::vector<double> excess = excess_in(step.found, step.dt);
+  if (excess.empty()) return false;
+  for (FlowForcing<Dim>& forcing : step.forcing) let_out(excess, step.dt, forcing.source);
+  return true;
 }
 
 template <int Dim>
@@ -205,10 +202,10 @@ void ImplicitFlow<Dim>::match_masses(double time, const std::vector<double>& wat
   if (reuse_.active()) update_steady_flow();
 }
 
-template void ImplicitFlow<2>::let_out_expansion(FlowStep<2>&);
+template bool ImplicitFlow<2>::let_out_expansion(FlowStep<2>&) const;
 template std::optional<MixedStep<2>> ImplicitFlow<2>::steady_step(double);
 template void ImplicitFlow<2>::match_masses(double, const std::vector<double>&);
-template void ImplicitFlow<3>::let_out_expansion(FlowStep<3>&);
+template bool ImplicitFlow<3>::let_out_expansion(FlowStep<3>&) const;
 template std::optional<MixedStep<3>> ImplicitFlow<3>::steady_step(double);
 template void ImplicitFlow<3>::match_masses(double, const std::vector<double>&);
 
