@@ -22,7 +22,8 @@ void add_value(const std::vector<Value>& from, int point, std::vector<Value>& to
 /// Adds all data of a point.
 template <int Dim>
 void add_point(const ChosenPoint<Dim>& chosen, MovedSoil<Dim>& to) {
-  const auto& [from, p] = chosen;
+  const MovedSoil<Dim>* from = chosen.from;
+  const int p = chosen.point;
   const auto add_each = [&](auto member) { add_value(from->*member, p, to.*member); };
   const auto add_solid = [&](auto member) { add_value(from->state.*member, p, to.state.*member); };
   const auto add_place = [&](auto member) {
