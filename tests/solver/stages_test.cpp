@@ -336,7 +336,9 @@ MovedPoints moved_points(const std::string& folder) {
   return points;
 }
 
-TEST_F(FromEarlierOnce, SoilThatMovesGoesOnFromItsStressAndItsPlace) {
+class FromMovedSoil : public FromEarlierOnce {};
+
+TEST_F(FromMovedSoil, GoesOnFromItsStressAndItsPlace) {
   // The load is constant in the second half.
   const test::Mode moving = test::moving_mode();
   run_first(moving);
