@@ -258,8 +258,8 @@ struct Scene {
   std::array<double, 3> gravity{};  ///< m/s2
   InitialFlow initial_flow = InitialFlow::rest;
   std::string initial_from;  ///< results folder whose last state is the initial one; may be empty
-  /// Time over which regions are dug out or filled in at the start, s; unset: by the end of the
-  /// run.
+  /// Time over which regions are dug out or filled in at the start, s; unset: 1 % of
+  /// `time.end`.
   double construction = unset;
   /// Level of the liquid at rest, m above the datum: given, or the head of the boundaries at t = 0.
   std::optional<double> water_level;

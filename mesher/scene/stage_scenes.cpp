@@ -1,5 +1,6 @@
 #include "scene/stage_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/errors.hpp"
@@ -20,7 +21,9 @@ class Comparison {
     const bool same_formulation = scene.formulation == there_.formulation;
     if (!same_formulation) report("formulation", "another one");
     same("liquid.density", scene.liquid.density, there_.liquid.density);
-    same("liquid.bulk_modulus", scene.liquid.bulk_modulus, there_.liquid.bulk_modulus);
+    if (!becomes_incompressible()) {
+      same("liquid.bulk_modulus", scene.liquid.bulk_modulus, there_.liquid.bulk_modulus);
+    }
     for (const Soil& soil : scene.soils) compare(soil);
     for (const Soil& soil : there_.soils) {
       if (scene.find_soil(soil.region) != nullptr || may_change(soil.region)) continue;
@@ -32,6 +35,11 @@ class Comparison {
  private:
   static std::string table_of(const Soil& soil) { return joined("soil", shown_name(soil.region)); }
 
+  /// After a rigid skeleton, soil with a retention moves, and its water is taken as incompressible.
+  [[nodiscard]] bool becomes_incompressible() const {
+    return here_.scene.moves() && !there_.moves() &&
+           std::ranges::any_of(here_.scene.soils, &Soil::drains);
+  }
   [[nodiscard]] bool may_change(const std::string& region) const {
     return here_.scene.moves() && there_.moves() &&
            here_.scene.is_free_water(region) != there_.is_free_water(region);

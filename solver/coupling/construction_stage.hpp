@@ -35,7 +35,8 @@ struct PoreContent {
 };
 
 /// Fills the pores of elements whose soil was dug out or filled in with clear water, and with air
-/// where they drain, at the pressures of the earlier flow. `porosity` per element, now.
+/// where they drain, at the pressures of the earlier flow.
+/// \param porosity  per element, after construction
 template <int Dim>
 void fill_pores(const Grid<Dim>& grid, const FlowSoils<Dim>& soils, const LiquidProperties& liquid,
                 const std::vector<double>& porosity, const EarlierFlow<Dim>& earlier,

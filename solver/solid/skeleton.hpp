@@ -22,7 +22,7 @@ struct SolidState {
   [[nodiscard]] double solid_volume(int point) const {
     return skeleton_volume[point] + erodible_volume[point];
   }
-  /// Of all points, m3.
+  /// Volume of the solid of each point, m3.
   [[nodiscard]] std::vector<double> solid_volumes() const {
     std::vector<double> result = skeleton_volume;
     for (std::size_t p = 0; p < result.size(); ++p) result[p] += erodible_volume[p];
