@@ -11,7 +11,7 @@ cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 rooms='solver/physics mesher/common mesher/mesh mesher/scene mesher/case solver/files solver/results solver/ranks solver/grid solver/linear '
 rooms+='solver/solid solver/equilibrium solver/boundary solver/motion solver/mixed solver/bounds solver/flow solver/coupling solver/field '
 rooms+='solver/points solver/explicit solver/formulation solver/driver solver/tools solver/main.cpp '
-rooms+='post/drawing post/values post/tables post/figures post/report post/commands'
+rooms+='post/drawing post/values post/tables post/checks post/figures post/report post/commands'
 # The other programs, and all that they may include.
 below_mesher='solver/physics,mesher/common,mesher/mesh,mesher/scene,mesher/case'
 others="mesher:$below_mesher post:$below_mesher,solver/files,solver/results"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,6 +17,7 @@
 #include "physics/exchange.hpp"
 #include "physics/retention/retention_law.hpp"
 #include "physics/skeleton/skeleton_model.hpp"
+#include "scene/check_settings.hpp"
 #include "scene/gradation.hpp"
 #include "scene/time_function.hpp"
 
@@ -146,6 +148,25 @@ struct Soil {
   [[nodiscard]] ConductivityModel conductivity_model() const {
     return {conductivity_law, conductivity, skeleton_fraction, conductivity_parameters};
   }
+  [[nodiscard]] ExchangeModel exchange_model(const LiquidProperties& liquid) const {
+    return {.erosion = erosion_model(),
+            .deposition = deposition,
+            .conductivity = conductivity_model(),
+            .ergun = drag == SoilDrag::ergun,
+            .water_density = liquid.density,
+            .water_viscosity = liquid.viscosity,
+            .viscosity = liquid.viscosity_model};
+  }
+  /// Gradient along a Darcy flux over |q|/k: 1, or more where the flux crosses the bedding. `flux`
+  /// has 2 or 3 components.
+  template <class Flux>
+  [[nodiscard]] double resistance_along(const Flux& flux) const {
+    const double squared = flux.squaredNorm();
+    if (anisotropy() == 1.0 || squared == 0.0) return 1.0;
+    const double angle = bedding * std::numbers::pi / 180.0;
+    const double across = std::cos(angle) * flux[flux.size() - 1] - std::sin(angle) * flux[0];
+    return 1.0 + (1.0 / anisotropy() - 1.0) * across * across / squared;
+  }
   /// Whether fines can erode or be deposited in this soil.
   [[nodiscard]] bool exchanges() const { return erodes(erosion_model()) || deposition.deposits(); }
   /// n_0 at a position of 2 or 3 coordinates.
@@ -268,6 +289,7 @@ struct Scene {
   FlowSettings flow;
   TimeSettings time;
   OutputSettings output;
+  CheckSettings check;
 
   /// See `construction`, s.
   [[nodiscard]] double construction_time() const {

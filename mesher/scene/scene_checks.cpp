@@ -5,6 +5,7 @@
 #include <map>
 
 #include "common/short_number.hpp"
+#include "scene/assessment_checks.hpp"
 #include "scene/geometry_checks.hpp"
 #include "scene/law_texts.hpp"
 #include "scene/scene_check_base.hpp"
@@ -434,6 +435,7 @@ void check_scene(const Scene& scene, const SceneInquiry& inquiry) {
   Checks(scene, inquiry).run();
   check_seepage(scene, inquiry);
   check_skeletons(scene, inquiry);
+  check_assessment(scene, inquiry);
 }
 
 }  // namespace suffuse

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "scene/check_keys.hpp"
 #include "scene/law_texts.hpp"
 #include "scene/scene_declaration.hpp"
 
@@ -755,6 +756,8 @@ const std::vector<SceneKey>& scene_keys() {
     std::vector<SceneKey> of_skeleton;
     for (const auto& p : skeleton_parameters()) of_skeleton.push_back(skeleton_parameter(p));
     insert_after("soil.*.skeleton.law", std::move(of_skeleton));
+    const std::vector<SceneKey> of_checks = check_keys();
+    all.insert(all.end(), of_checks.begin(), of_checks.end());
     return all;
   }();
   return keys;

@@ -100,6 +100,16 @@ const std::vector<SceneSection>& scene_sections() {
       {"output.probe[]", "[[output.probe]]", "Points whose state is recorded in probes.csv."},
       {"output.section[]", "[[output.section]]",
        "Lines whose discharge is recorded in sections.csv."},
+      {"check", "[check]",
+       "What `suffuse-post check` makes of the run: checks of standards. They change no result, "
+       "and "
+       "`suffuse-post check --set KEY=VALUE` changes them after the run."},
+      {"check.heave", "[check.heave]", "Hydraulic heave at exits, EN 1997-1."},
+      {"check.uplift", "[check.uplift]", "Uplift of a cover, EN 1997-1."},
+      {"check.backward_erosion", "[check.backward_erosion]",
+       "Backward erosion below a roof, by Sellmeijer and others (2011)."},
+      {"check.blanket", "[check.blanket]",
+       "Head below the cover at the landside toe of a levee, by blanket theory (EM 1110-2-1913)."},
   };
   return sections;
 }

@@ -3,13 +3,14 @@
 #include <iostream>
 #include <optional>
 
+#include "checks/checks.hpp"
+#include "checks/heave_safety.hpp"
 #include "commands/command.hpp"
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
 #include "tables/boundary_text.hpp"
 #include "tables/discharge_text.hpp"
 #include "tables/ledger_report.hpp"
-#include "tables/safety_check.hpp"
 #include "tables/table_output.hpp"
 
 namespace suffuse {
@@ -74,22 +75,41 @@ void boundaries(const TableOptions& o) {
 struct CheckOptions {
   std::string results;
   std::optional<double> least;
+  std::vector<std::string> changes;
+  std::string csv;
+  bool fail = false;
 };
 
 void declare_check(CLI::App& command, CheckOptions& o) {
   add_results(command, o.results);
-  command.add_option("--least", o.least, "fail with exit code 3 where a safety is below this")
+  command
+      .add_option("--least", o.least,
+                  "fail with exit code 3 where a safety i_cr / i against heave is below this")
       ->check(CLI::PositiveNumber);
+  command
+      .add_option("--set", o.changes, "change a key of the table [check] of the scene, repeatable")
+      ->type_name("check.KEY=VALUE");
+  command.add_option("--csv", o.csv, "write the table of all mechanisms here")->type_name("FILE");
+  command.add_flag("--fail", o.fail,
+                   "fail with exit code 3 where the factor of a mechanism is below 1");
 }
 
 void check(const CheckOptions& o) {
   const ResultsReader results(o.results);
+  const CheckReport report = check_run(results, check_settings(results, o.changes));
   const auto parts = safety_of(results);
-  std::cout << safety_text(results, parts);
-  if (const std::string known = discharge_text(results); !known.empty()) {
-    std::cout << known << '\n';
+  if (o.csv != "-") {
+    std::cout << safety_text(results, parts) << '\n' << check_text(report);
+    if (const std::string known = discharge_text(results); !known.empty()) {
+      std::cout << known << '\n';
+    }
+  }
+  if (!o.csv.empty()) {
+    refuse_inside(results, "--csv", o.csv);
+    write_checks(o.csv, report, results.dimension());
   }
   if (o.least) check_safety(parts, *o.least);
+  if (o.fail) require_limit_states(report);
 }
 
 }  // namespace
@@ -99,7 +119,8 @@ void add_balance_commands(Commands& commands) {
   commands.add("history", "Range of every quantity over the run", declare_history, history);
   commands.add("boundaries", "What crossed each boundary: water, fines, discharge",
                declare_boundaries, boundaries);
-  commands.add("check", "Least safety against heave and piping", declare_check, check);
+  commands.add("check", "Safety against erosion, heave, uplift, backward erosion; filters",
+               declare_check, check);
 }
 
 }  // namespace suffuse

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "checks/heave_safety.hpp"
 #include "results/reader.hpp"
 #include "results/run_record.hpp"
 #include "tables/ledger_report.hpp"
-#include "tables/safety_check.hpp"
 
 namespace suffuse {
 

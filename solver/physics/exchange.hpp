@@ -91,6 +91,10 @@ struct Exchange {
   [[nodiscard]] double into_liquid() const { return eroded - deposited; }
 };
 
+/// D at |q| = `flux`, m/s, in the unit of the drive; 1 for erosion by time alone.
+double erosion_drive(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                     double flux);
+
 /// phi_e and phi_d at a time (s) and the flow at the start of the step, 1/s.
 Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
                        double time);

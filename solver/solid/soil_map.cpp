@@ -47,16 +47,6 @@ Soil free_water(const Scene& scene, double element_size) {
   return water;
 }
 
-ExchangeModel exchange_model(const Soil& soil, const LiquidProperties& liquid) {
-  return {.erosion = soil.erosion_model(),
-          .deposition = soil.deposition,
-          .conductivity = soil.conductivity_model(),
-          .ergun = soil.drag == SoilDrag::ergun,
-          .water_density = liquid.density,
-          .water_viscosity = liquid.viscosity,
-          .viscosity = liquid.viscosity_model};
-}
-
 }  // namespace
 
 template <int Dim>
@@ -83,7 +73,7 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
                                     "a soil for region '" + region + "' of the mesh"});
     }
     soil_of_region_.push_back(soil);
-    exchange_of_region_.push_back(exchange_model(*soil, c.document.scene.liquid));
+    exchange_of_region_.push_back(soil->exchange_model(c.document.scene.liquid));
     const double across = soil->conductivity * std::min(soil->anisotropy(), 1.0);
     still_flux_.push_back(still_gradient * across + still_share * most_conductive);
   }
@@ -170,11 +160,7 @@ std::vector<double> SoilMap<Dim>::erosion_breakpoints(const Ranks& ranks) const 
 
 template <int Dim>
 double SoilMap<Dim>::resistance_along(int element, const Vector<Dim>& flux) const {
-  const Soil& soil = soil_of_element(element);
-  const double squared = flux.squaredNorm();
-  if (soil.anisotropy() == 1.0 || squared == 0.0) return 1.0;
-  const double across = flux.dot(across_bedding<Dim>(soil));
-  return 1.0 + (1.0 / soil.anisotropy() - 1.0) * across * across / squared;
+  return soil_of_element(element).resistance_along(flux);
 }
 
 template <int Dim>

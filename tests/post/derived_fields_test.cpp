@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "checks/heave_safety.hpp"
 #include "common/errors.hpp"
 #include "post/synthetic_results.hpp"
-#include "tables/safety_check.hpp"
 #include "values/fields.hpp"
 
 namespace suffuse {

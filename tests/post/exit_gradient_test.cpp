@@ -9,8 +9,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "checks/heave_safety.hpp"
 #include "post/synthetic_results.hpp"
-#include "tables/safety_check.hpp"
 #include "test_paths.hpp"
 #include "values/sample.hpp"
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "box_mesh.hpp"
+#include "checks/heave_safety.hpp"
 #include "common/errors.hpp"
 #include "drawing/space.hpp"
 #include "figures/figures.hpp"
@@ -17,7 +18,6 @@
 #include "post/synthetic_results.hpp"
 #include "scene/scene_defaults.hpp"
 #include "tables/reference_error.hpp"
-#include "tables/safety_check.hpp"
 #include "values/derived_fields.hpp"
 #include "values/flow_paths.hpp"
 #include "values/sample.hpp"

@@ -1,4 +1,4 @@
-#include "tables/safety_check.hpp"
+#include "checks/heave_safety.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,0 +1,212 @@
+#include "checks/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+
+#include "checks/column_checks.hpp"
+#include "checks/erosion_checks.hpp"
+#include "checks/filter_checks.hpp"
+#include "checks/heave_safety.hpp"
+#include "checks/section_checks.hpp"
+#include "common/errors.hpp"
+#include "common/pending_file.hpp"
+#include "files/number_text.hpp"
+#include "files/table_files.hpp"
+#include "tables/table_output.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Rows of `heave` at the boundaries through which water leaves.
+std::vector<CheckRow> heave_checks(const ResultsReader& results) {
+  std::vector<CheckRow> rows;
+  const auto parts = safety_of(results);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (!parts[i].least) continue;
+    const LeastSafety& least = *parts[i].least;
+    rows.push_back({"heave", parts[i].name, "Terzaghi, i_cr / i", least.time, least.gradient,
+                    least.critical_gradient, "1", least.safety, least.place});
+  }
+  return rows;
+}
+
+/// Mechanisms that a report lacks, by phase.
+class Gaps {
+ public:
+  Gaps(const ResultsReader& results, const CheckReport& report)
+      : scene_(results.scene().scene), rows_(report.rows) {}
+
+  [[nodiscard]] std::vector<std::string> sentences() const {
+    return {"initiation: " + initiation(), "continuation: " + continuation(),
+            "progression: " + progression(),
+            "breach: the slope (suffuse-solver --strength-reduction), overtopping, the breach "
+            "itself"};
+  }
+
+ private:
+  [[nodiscard]] bool has(const std::string& mechanism) const {
+    return std::ranges::any_of(rows_,
+                               [&](const CheckRow& row) { return row.mechanism == mechanism; });
+  }
+
+  [[nodiscard]] std::string initiation() const {
+    std::string text = "concentrated leaks through cracks, contact erosion along joints";
+    if (!has("erosion")) text += ", suffusion (no soil erodes)";
+    if (scene_.moves()) text += ", heave by EN 1997-1 (the soil moves)";
+    if (!has("uplift")) text += ", uplift of a cover (key check.uplift.cover)";
+    if (!has("blanket")) text += ", blanket theory (key check.blanket.aquifer)";
+    return text;
+  }
+  [[nodiscard]] std::string continuation() const {
+    return has("filter") ? "filters between soils without a gradation"
+                         : "filters (no two soils with a gradation and flow between them)";
+  }
+  [[nodiscard]] std::string progression() const {
+    return has("backward-erosion") ? "pipes elsewhere than in the layer that was checked"
+                                   : "backward erosion (key check.backward_erosion.layer)";
+  }
+
+  const Scene& scene_;
+  const std::vector<CheckRow>& rows_;
+};
+
+std::string short_cell(double value) {
+  return std::isnan(value) ? "-" : short_text(value);
+}
+
+std::string number_cell(double value) {
+  return std::isnan(value) ? "" : number_text(value);
+}
+
+/// Columns of the text: the first two aligned to the left.
+std::vector<std::string> text_cells(const CheckRow& row) {
+  const auto with_unit = [&](double value) {
+    return short_cell(value) +
+           (std::isnan(value) || row.unit == "1" || row.unit.empty() ? "" : " " + row.unit);
+  };
+  return {row.mechanism,
+          row.where,
+          row.factor ? short_text(*row.factor) : "-",
+          with_unit(row.effect),
+          with_unit(row.resistance),
+          short_cell(row.time),
+          row.place.empty() ? "-" : place_text(row.place),
+          row.clause};
+}
+
+std::string aligned(const std::vector<std::vector<std::string>>& lines) {
+  std::vector<std::size_t> width(lines.front().size(), 0);
+  for (const auto& line : lines) {
+    for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], line[k].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const int columns = static_cast<int>(width[k]);
+      text += padded(line[k], k < 2 ? -columns : columns) + "  ";
+    }
+    text += line.back() + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+CheckSettings check_settings(const ResultsReader& results,
+                             const std::vector<std::string>& changes) {
+  const SceneDocument& document = results.scene();
+  if (changes.empty()) return document.scene.check;
+  std::vector<std::string> overrides = document.overrides;
+  for (const std::string& change : changes) {
+    if (!change.starts_with("check.")) {
+      throw InputError(InputProblem{"suffuse-post check", "--set", '"' + change + '"',
+                                    "check.KEY=VALUE, with a key of the table [check]"});
+    }
+    overrides.push_back(change);
+  }
+  return parse_scene(document.text, document.path, overrides, document.files).scene.check;
+}
+
+CheckReport check_run(const ResultsReader& results, const CheckSettings& settings) {
+  CheckReport report;
+  const auto add = [&](const std::vector<CheckRow>& rows) {
+    report.rows.insert(report.rows.end(), rows.begin(), rows.end());
+  };
+  if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  add(threshold_checks(results));
+  add(loss_checks(results));
+  add(heave_checks(results));
+  add(column_checks(results, settings));
+  add(blanket_checks(results, settings.blanket));
+  add(filter_checks(results));
+  add(backward_erosion_checks(results, settings.backward_erosion));
+  report.not_looked_at = Gaps(results, report).sentences();
+  return report;
+}
+
+std::string check_text(const CheckReport& report) {
+  std::vector<std::vector<std::string>> lines{
+      {"mechanism", "where", "factor", "effect", "resistance", "t (s)", "at (m)", "by"}};
+  for (const CheckRow& row : report.rows) lines.push_back(text_cells(row));
+  std::string text =
+      "factor = resistance / effect, partial factors included; below 1 the limit is passed\n" +
+      aligned(lines);
+  for (const CheckRow& row : report.rows) {
+    if (!row.note.empty()) text += row.mechanism + ", " + row.where + ": " + row.note + "\n";
+  }
+  text += "not looked at:\n";
+  for (const std::string& sentence : report.not_looked_at) text += "  " + sentence + "\n";
+  return text;
+}
+
+std::string check_table(const CheckReport& report, int dimension) {
+  const std::string z = dimension == 3 ? ",z" : "";
+  std::string text = "mechanism,where,clause,t,effect,resistance,unit,factor,x,y" + z + ",note\n";
+  for (const CheckRow& row : report.rows) {
+    std::vector<std::string> cells{row.mechanism,
+                                   row.where,
+                                   row.clause,
+                                   number_cell(row.time),
+                                   number_cell(row.effect),
+                                   number_cell(row.resistance),
+                                   row.unit,
+                                   row.factor ? number_text(*row.factor) : ""};
+    for (int d = 0; d < dimension; ++d) {
+      cells.push_back(row.place.empty() ? "" : number_text(row.place[d]));
+    }
+    cells.push_back(row.note);
+    for (std::size_t k = 0; k < cells.size(); ++k) text += (k == 0 ? "" : ",") + csv_cell(cells[k]);
+    text += "\n";
+  }
+  return text;
+}
+
+void write_checks(const std::string& path, const CheckReport& report, int dimension) {
+  const std::string text = check_table(report, dimension);
+  if (path == "-") {
+    std::cout << text;
+    return;
+  }
+  PendingFile file(path);
+  {
+    std::ofstream out(file.temporary_path(), std::ios::binary);
+    out << text << std::flush;
+    if (!out) throw FileError(path + ": cannot be written");
+  }
+  file.commit();
+}
+
+void require_limit_states(const CheckReport& report) {
+  for (const CheckRow& row : report.rows) {
+    if (!row.factor || *row.factor >= 1.0) continue;
+    throw NumericalError(row.mechanism + ", " + row.where + ": got a factor of " +
+                         number_text(*row.factor) +
+                         (row.place.empty() ? "" : " at " + place_text(row.place) + " m") +
+                         (std::isnan(row.time) ? "" : ", t = " + number_text(row.time) + " s") +
+                         "; expected at least 1");
+  }
+}
+
+}  // namespace suffuse

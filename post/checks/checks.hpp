@@ -1,0 +1,40 @@
+#pragma once
+
+/// All checks of a run, as text and as a table.
+
+#include <string>
+#include <vector>
+
+#include "checks/check_row.hpp"
+#include "scene/check_settings.hpp"
+
+namespace suffuse {
+
+struct CheckReport {
+  std::vector<CheckRow> rows;
+  /// Mechanisms that nothing here judges, by phase of a failure: "breach: overtopping, ...".
+  std::vector<std::string> not_looked_at;
+};
+
+/// The settings of the run's scene with some keys of [check] changed: `KEY=VALUE`. Throws
+/// InputError.
+CheckSettings check_settings(const ResultsReader& results, const std::vector<std::string>& changes);
+
+/// Throws FileError; InputError for settings that the model does not suit.
+CheckReport check_run(const ResultsReader& results, const CheckSettings& settings);
+
+/// The rows as an aligned table, and what was not looked at.
+std::string check_text(const CheckReport& report);
+
+/// CSV: mechanism, where, clause, t, effect, resistance, unit, factor, x, y (z in space), note.
+/// Times in s.
+std::string check_table(const CheckReport& report, int dimension);
+
+/// Writes `check_table`; `-` is standard output. Throws FileError.
+void write_checks(const std::string& path, const CheckReport& report, int dimension);
+
+/// Throws NumericalError, naming mechanism, place and time, if a limit state is passed: a factor
+/// below 1.
+void require_limit_states(const CheckReport& report);
+
+}  // namespace suffuse

@@ -1,0 +1,160 @@
+#include "checks/column_checks.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "checks/eurocode.hpp"
+#include "checks/vertical_lines.hpp"
+#include "physics/head.hpp"
+#include "values/derived_fields.hpp"
+
+namespace suffuse {
+namespace {
+
+/// The fields of a snapshot that load the columns.
+struct ColumnState {
+  ColumnState(const ResultsReader& results, std::size_t index)
+      : time(results.times()[index]),
+        node_pressure(results.field(index, "node", "pressure").values),
+        porosity(results.field(index, "cell", "porosity").values),
+        saturation(any_field(results, index, "cell", "saturation").values),
+        flux(results.field(index, "cell", "darcy_flux").values) {}
+
+  double time;
+  std::vector<double> node_pressure;  ///< Pa
+  std::vector<double> porosity;
+  std::vector<double> saturation;
+  std::vector<double> flux;  ///< m/s
+};
+
+template <int Dim>
+class ColumnChecks {
+ public:
+  ColumnChecks(const Mesh<Dim>& mesh, const Scene& scene, const CheckSettings& settings)
+      : mesh_(mesh),
+        scene_(scene),
+        settings_(settings),
+        lines_(mesh, scene),
+        unit_weight_(unit_weight(scene.liquid.density, scene.gravity)),
+        has_gravity_(has_gravity(scene.gravity)) {}
+
+  void look_at(const ColumnState& state) {
+    for (const GroundPlace<Dim>& place : lines_.ground()) {
+      const bool is_exit = flux_through(state, place) > 0.0;
+      const bool is_cover = lines_.region_of(place.element) == settings_.uplift.cover;
+      if (is_exit || is_cover) look_below(state, place, is_exit, is_cover);
+    }
+  }
+
+  [[nodiscard]] std::vector<CheckRow> rows() const {
+    std::vector<CheckRow> rows;
+    rows.reserve(worst_.size());
+    for (const auto& [key, row] : worst_) rows.push_back(*row);
+    return rows;
+  }
+
+ private:
+  [[nodiscard]] double flux_through(const ColumnState& state, const GroundPlace<Dim>& place) const {
+    double sum = 0.0;
+    for (int d = 0; d < Dim; ++d) sum += state.flux[Dim * place.element + d] * place.outward[d];
+    return sum;
+  }
+
+  [[nodiscard]] double pressure_at(const ColumnState& state, int element,
+                                   const std::array<double, Dim + 1>& weights) const {
+    double pressure = 0.0;
+    for (int a = 0; a <= Dim; ++a) {
+      pressure += weights[a] * state.node_pressure[mesh_.elements[element][a]];
+    }
+    return pressure;
+  }
+
+  /// Weight of soil and water in an element, N/m3.
+  [[nodiscard]] double bulk_weight(const ColumnState& state, int element) const {
+    const Soil& soil = *scene_.find_soil(lines_.region_of(element));
+    const double n = state.porosity[element];
+    const double density =
+        n * state.saturation[element] * scene_.liquid.density + (1.0 - n) * soil.grain_density;
+    return unit_weight_ / scene_.liquid.density * density;
+  }
+
+  void look_below(const ColumnState& state, const GroundPlace<Dim>& place, bool is_exit,
+                  bool is_cover) {
+    // Free water on the ground, which presses on soil and pores alike.
+    const double on_ground = std::max(0.0, pressure_at(state, place.element, place.weights));
+    ColumnLoads column;
+    double hydrostatic = 0.0;
+    const auto line = lines_.below(place);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const LineSegment<Dim>& segment = line[i];
+      column.depth += segment.length;
+      column.total_stress += segment.length * bulk_weight(state, segment.element);
+      if (state.saturation[segment.element] > 1.0 - 1e-9) {
+        hydrostatic += segment.length * unit_weight_;
+      }
+      const double stored = pressure_at(state, segment.element, segment.base_weights) - on_ground;
+      // Without gravity pressures are those above the hydrostatic one.
+      column.pressure = std::max(0.0, has_gravity_ ? stored : stored + hydrostatic);
+      column.seepage_force = column.pressure - hydrostatic;
+      column.weight = column.total_stress - hydrostatic;
+      if (is_exit) {
+        add("hyd-stresses", "EN 1997-1, 2.9a", "Pa", heave_by_stresses(column, settings_.heave),
+            column, state, place);
+        add("hyd-forces", "EN 1997-1, 2.9b", "N/m2", heave_by_forces(column, settings_.heave),
+            column, state, place);
+      }
+      const bool ends =
+          i + 1 == line.size() || lines_.region_of(line[i + 1].element) != settings_.uplift.cover;
+      if (is_cover && ends) {
+        if (i + 1 < line.size()) {
+          add("uplift", "EN 1997-1, 2.8", "Pa", uplift(column, settings_.uplift.factors), column,
+              state, place);
+        }
+        is_cover = false;
+      }
+    }
+  }
+
+  void add(const std::string& mechanism, const std::string& clause, const std::string& unit,
+           const Utilisation& found, const ColumnLoads& column, const ColumnState& state,
+           const GroundPlace<Dim>& place) {
+    if (!(found.effect > 0.0)) return;
+    const std::string where =
+        place.boundary.empty() ? "ground of " + lines_.region_of(place.element) : place.boundary;
+    std::optional<CheckRow>& worst = worst_[{mechanism, where}];
+    if (worst) {
+      // Where the factor does not depend on the depth, the deepest column counts, not round-off.
+      const double change = found.factor() / *worst->factor - 1.0;
+      if (change > 1e-9 || (change > -1e-9 && found.effect <= worst->effect)) return;
+    }
+    std::vector<double> base(place.position.data(), place.position.data() + Dim);
+    const Vector<Dim> down = -column.depth * upward<Dim>(scene_);
+    for (int d = 0; d < Dim; ++d) base[d] += down[d];
+    worst = CheckRow{mechanism,        where, clause,         state.time, found.effect,
+                     found.resistance, unit,  found.factor(), base};
+  }
+
+  const Mesh<Dim>& mesh_;
+  const Scene& scene_;
+  const CheckSettings& settings_;
+  VerticalLines<Dim> lines_;
+  double unit_weight_;
+  bool has_gravity_;
+  std::map<std::pair<std::string, std::string>, std::optional<CheckRow>> worst_;
+};
+
+}  // namespace
+
+std::vector<CheckRow> column_checks(const ResultsReader& results, const CheckSettings& settings) {
+  const Scene& scene = results.scene().scene;
+  if (scene.moves()) return {};
+  return with_mesh(results, [&]<int Dim>(const Mesh<Dim>& mesh) {
+    ColumnChecks<Dim> checks(mesh, scene, settings);
+    for (std::size_t i = 0; i < results.times().size(); ++i) {
+      checks.look_at(ColumnState(results, i));
+    }
+    return checks.rows();
+  });
+}
+
+}  // namespace suffuse

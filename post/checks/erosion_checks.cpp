@@ -1,0 +1,126 @@
+#include "checks/erosion_checks.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "files/number_text.hpp"
+#include "values/derived_fields.hpp"
+
+namespace suffuse {
+namespace {
+
+/// The largest drive in the elements of a soil, in one snapshot.
+template <int Dim>
+class SoilDrive {
+ public:
+  SoilDrive(const ResultsReader& results, const Mesh<Dim>& mesh, std::size_t index)
+      : results_(results),
+        mesh_(mesh),
+        flux_(results.field(index, "cell", "darcy_flux").values),
+        porosity_(results.field(index, "cell", "porosity").values),
+        concentration_(results.field(index, "cell", "concentration").values) {}
+
+  [[nodiscard]] double at(const ExchangeModel& model, const Soil& soil, int element) const {
+    const Vector<Dim> q = Vector<Dim>::Map(&flux_[Dim * static_cast<std::size_t>(element)]);
+    const double initial = soil.initial_porosity(element_centroid(mesh_, element));
+    const PlaceFlow flow{.resistance = soil.resistance_along(q),
+                         .concentration = concentration_[element]};
+    return erosion_drive(model, {initial, porosity_[element]}, flow, q.norm());
+  }
+
+ private:
+  const ResultsReader& results_;
+  const Mesh<Dim>& mesh_;
+  std::vector<double> flux_;
+  std::vector<double> porosity_;
+  std::vector<double> concentration_;
+};
+
+bool is_in(const auto& mesh, int element, const Soil& soil) {
+  return mesh.region_names[mesh.element_region[element]] == soil.region;
+}
+
+CheckRow without_threshold(const Soil& soil) {
+  CheckRow row{.mechanism = "erosion", .where = soil.region, .clause = "erosion law of the scene"};
+  row.note = soil.erosion_model().drive->depends_on_flow()
+                 ? "the law has no threshold: any flow erodes"
+                 : "the law erodes with time, whatever the flow";
+  return row;
+}
+
+template <int Dim>
+CheckRow threshold_check(const ResultsReader& results, const Mesh<Dim>& mesh, const Soil& soil) {
+  const ExchangeModel model = soil.exchange_model(results.scene().scene.liquid);
+  CheckRow row = without_threshold(soil);
+  row.note.clear();
+  row.unit = std::string(model.erosion.drive->unit);
+  row.resistance = model.erosion.threshold;
+  row.effect = 0.0;
+  for (std::size_t i = 0; i < results.times().size(); ++i) {
+    const SoilDrive<Dim> drive(results, mesh, i);
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      if (!is_in(mesh, e, soil)) continue;
+      const double found = drive.at(model, soil, e);
+      if (!(found > row.effect)) continue;
+      row.effect = found;
+      row.time = results.times()[i];
+      const Vector<Dim> x = element_centroid(mesh, e);
+      row.place.assign(x.data(), x.data() + Dim);
+    }
+  }
+  if (row.effect > 0.0) row.factor = row.resistance / row.effect;
+  return row;
+}
+
+std::string erosion_class(double per_cent) {
+  if (per_cent <= 0.2) return "no erosion";
+  if (per_cent <= 1.0) return "some erosion";
+  return per_cent <= 5.0 ? "excessive erosion" : "continuing erosion";
+}
+
+}  // namespace
+
+std::vector<CheckRow> threshold_checks(const ResultsReader& results) {
+  std::vector<CheckRow> rows;
+  for (const Soil& soil : results.scene().scene.soils) {
+    const ErosionModel model = soil.erosion_model();
+    if (!erodes(model)) continue;
+    const bool opens = model.drive->depends_on_flow() && model.threshold > 0.0;
+    rows.push_back(
+        opens ? with_mesh(results,
+                          [&](const auto& mesh) { return threshold_check(results, mesh, soil); })
+              : without_threshold(soil));
+  }
+  return rows;
+}
+
+std::vector<CheckRow> loss_checks(const ResultsReader& results) {
+  const Table table = results.region_ledgers();
+  const auto& region = table.column("region");
+  const auto& solid = table.column("solid");
+  std::vector<CheckRow> rows;
+  for (std::size_t r = 0; r < results.regions().size(); ++r) {
+    const Soil* soil = results.scene().scene.find_soil(results.regions()[r]);
+    if (soil == nullptr || !soil->exchanges()) continue;
+    double first = unset;
+    double last = unset;
+    double time = unset;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      if (region[i] != static_cast<double>(r)) continue;
+      if (std::isnan(first)) first = solid[i];
+      last = solid[i];
+      time = table.column("t")[i];
+    }
+    if (!(first > 0.0)) continue;
+    const double lost = 100.0 * (first - last) / first;
+    CheckRow row{.mechanism = "loss", .where = soil->region, .clause = "Douglas and others (2019)"};
+    row.time = time;
+    row.effect = lost;
+    row.unit = "%";
+    row.note = erosion_class(lost) + ": " + short_text(lost) + " % of the dry mass";
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace suffuse

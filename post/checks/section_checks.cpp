@@ -1,0 +1,300 @@
+#include "checks/section_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "checks/blanket_theory.hpp"
+#include "checks/sellmeijer.hpp"
+#include "checks/vertical_lines.hpp"
+#include "common/errors.hpp"
+#include "files/number_text.hpp"
+#include "mesh/faces.hpp"
+#include "physics/head.hpp"
+#include "values/derived_fields.hpp"
+
+namespace suffuse {
+namespace {
+
+[[noreturn]] void refuse_setting(const ResultsReader& results, const std::string& key,
+                                 const std::string& found, const std::string& expected) {
+  throw InputError(InputProblem{results.scene().locate(key), key, found, expected});
+}
+
+/// Mesh and vertical lines of a plane section.
+class Section {
+ public:
+  Section(const ResultsReader& results, const std::string& table)
+      : results_(results),
+        mesh_(plane_mesh(results, table)),
+        lines_(mesh_, results.scene().scene) {}
+
+  [[nodiscard]] const Mesh<2>& mesh() const { return mesh_; }
+  [[nodiscard]] const VerticalLines<2>& lines() const { return lines_; }
+
+  /// The line below the ground at x. Throws InputError, naming the key that gave x.
+  [[nodiscard]] std::vector<LineSegment<2>> below(double x, const std::string& key) const {
+    return lines_.below(ground_at(x, key));
+  }
+  [[nodiscard]] GroundPlace<2> ground_at(double x, const std::string& key) const {
+    const auto place = lines_.ground_at(x);
+    if (!place)
+      refuse_setting(results_, key, short_text(x) + " m", "an x with ground of the model");
+    return *place;
+  }
+
+  /// Nodes of a boundary; of one region, if it is given.
+  [[nodiscard]] std::vector<int> nodes_of(const std::string& boundary,
+                                          const std::string& region = {}) const {
+    std::vector<int> nodes;
+    const auto set = std::ranges::find(mesh_.boundaries, boundary, &BoundarySet<2>::name);
+    if (set == mesh_.boundaries.end()) return nodes;
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      if (!region.empty() && lines_.region_of(e) != region) continue;
+      for (int a = 0; a <= 2; ++a) {
+        const auto face = face_opposite<2>(mesh_.elements[e], a);
+        const auto is_face = [&](const std::array<int, 2>& other) {
+          return face_key<2>(other) == face_key<2>(face);
+        };
+        if (std::ranges::any_of(set->faces, is_face))
+          nodes.insert(nodes.end(), face.begin(), face.end());
+      }
+    }
+    return nodes;
+  }
+
+ private:
+  static Mesh<2> plane_mesh(const ResultsReader& results, const std::string& table) {
+    if (results.dimension() == 3) {
+      refuse_setting(results, table, "a check of plane sections in three dimensions",
+                     "no such table");
+    }
+    return results.mesh<2>();
+  }
+
+  const ResultsReader& results_;
+  Mesh<2> mesh_;
+  VerticalLines<2> lines_;
+};
+
+/// The path of a pipe through a layer, level along x.
+struct PipePath {
+  double from;  ///< x of the entry, m
+  double to;    ///< x of the exit, m
+  [[nodiscard]] double length() const { return std::abs(to - from); }
+};
+
+PipePath path_in_drawing(const ResultsReader& results, const Section& section,
+                         const BackwardErosionSettings& settings) {
+  const auto nodes_at = [&](const std::string& boundary) {
+    std::vector<int> nodes = section.nodes_of(boundary, settings.layer);
+    if (nodes.empty()) {
+      refuse_setting(results, "check.backward_erosion.length",
+                     "nothing, and the boundary \"" + boundary + "\" has no face of the layer \"" +
+                         settings.layer + "\"",
+                     "the length of the seepage path, and the thickness of the layer, in m");
+    }
+    return nodes;
+  };
+  const std::vector<int> entry = nodes_at(settings.entry);
+  const std::vector<int> exit = nodes_at(settings.exit);
+  PipePath shortest{0.0, std::numeric_limits<double>::infinity()};
+  for (const int i : entry) {
+    for (const int j : exit) {
+      const PipePath path{section.mesh().nodes[i][0], section.mesh().nodes[j][0]};
+      if (path.length() < shortest.length()) shortest = path;
+    }
+  }
+  if (!(shortest.length() > 0.0)) {
+    refuse_setting(results, "check.backward_erosion.length",
+                   "nothing, and entry and exit of the layer one above the other",
+                   "the length of the seepage path, in m");
+  }
+  return shortest;
+}
+
+double mean_thickness(const Section& section, const PipePath& path, const std::string& layer) {
+  constexpr int count = 20;
+  double sum = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const double x = path.from + (i + 0.5) / count * (path.to - path.from);
+    sum += section.lines().length_in(section.below(x, "check.backward_erosion.thickness"), layer);
+  }
+  return sum / count;
+}
+
+/// Head of the boundaries' nodes that water stands or leaves at, m.
+double largest_head(const Section& section, const std::vector<double>& head,
+                    const std::string& boundary) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const int i : section.nodes_of(boundary)) largest = std::max(largest, head[i]);
+  return largest;
+}
+double smallest_head(const Section& section, const std::vector<double>& head,
+                     const std::string& boundary) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const int i : section.nodes_of(boundary)) smallest = std::min(smallest, head[i]);
+  return smallest;
+}
+
+PipingLayer piping_layer(const ResultsReader& results, const BackwardErosionSettings& settings) {
+  const Scene& scene = results.scene().scene;
+  const Soil& soil = *scene.find_soil(settings.layer);
+  const auto size = [&](double percent) {
+    return soil.gradation.empty() || percent < soil.gradation.smallest_finer()
+               ? unset
+               : soil.gradation.size(percent);
+  };
+  PipingLayer layer;
+  layer.d70 = 1e-3 * (std::isnan(settings.d70) ? size(70.0) : settings.d70);
+  const double graded = size(60.0) / size(10.0);
+  if (!std::isnan(settings.uniformity)) {
+    layer.uniformity = settings.uniformity;
+  } else if (!std::isnan(graded)) {
+    layer.uniformity = graded;
+  }
+  layer.permeability =
+      soil.conductivity * scene.liquid.viscosity / (scene.liquid.density * conductivity_gravity);
+  layer.relative_weight = soil.grain_density / scene.liquid.density - 1.0;
+  layer.roundness = settings.roundness;
+  layer.relative_density = settings.relative_density;
+  layer.grain_size_correction = settings.grain_size_correction;
+  return layer;
+}
+
+std::string sentences(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& sentence : list) text += "; " + sentence;
+  return text;
+}
+
+/// A side of the levee beyond a toe.
+BlanketSide side_of(const ResultsReader& results, const Section& section,
+                    const BlanketSettings& settings, double toe, double away, AquiferEnd end,
+                    const std::string& key) {
+  const Scene& scene = results.scene().scene;
+  BlanketSide side;
+  side.end = end;
+  for (int e = 0; e < section.mesh().element_count(); ++e) {
+    if (section.lines().region_of(e) != settings.aquifer) continue;
+    for (const int node : section.mesh().elements[e]) {
+      side.length = std::max(side.length, away * (section.mesh().nodes[node][0] - toe));
+    }
+  }
+  // The middle of the side: the slope of the levee ends at the toe itself.
+  const double middle = toe + 0.5 * away * side.length;
+  if (!(side.length > 0.0)) return side;
+  side.cover_thickness = section.lines().length_in(section.below(middle, key), settings.cover);
+  const Soil& cover = *scene.find_soil(settings.cover);
+  side.cover_conductivity =
+      std::isnan(cover.conductivity_across) ? cover.conductivity : cover.conductivity_across;
+  return side;
+}
+
+/// The highest head at the landside toe, in the snapshots.
+struct ToeHeads {
+  double time = unset;
+  double river = 0.0;     ///< above the ground at the toe, or the water on it, m
+  double computed = 0.0;  ///< below the cover, likewise
+};
+
+}  // namespace
+
+std::vector<CheckRow> backward_erosion_checks(const ResultsReader& results,
+                                              const BackwardErosionSettings& settings) {
+  if (settings.layer.empty()) return {};
+  const Section section(results, "check.backward_erosion");
+  PipingLayer layer = piping_layer(results, settings);
+  layer.length = settings.length;
+  layer.thickness = settings.thickness;
+  if (std::isnan(layer.length) || std::isnan(layer.thickness)) {
+    const PipePath path = path_in_drawing(results, section, settings);
+    if (std::isnan(layer.length)) layer.length = path.length();
+    if (std::isnan(layer.thickness)) {
+      layer.thickness = mean_thickness(section, path, settings.layer);
+    }
+  }
+  CheckRow row{.mechanism = "backward-erosion",
+               .where = settings.layer,
+               .clause = "Sellmeijer and others (2011)"};
+  row.effect = 0.0;
+  row.resistance = critical_head(layer);
+  row.unit = "m";
+  for (std::size_t i = 0; i < results.times().size(); ++i) {
+    const std::vector<double> head = any_field(results, i, "node", "head").values;
+    const double difference =
+        largest_head(section, head, settings.entry) - smallest_head(section, head, settings.exit);
+    if (!(difference > row.effect)) continue;
+    row.effect = difference;
+    row.time = results.times()[i];
+  }
+  if (row.effect > 0.0) row.factor = row.resistance / row.effect;
+  row.note = "L = " + short_text(layer.length) + " m, D = " + short_text(layer.thickness) + " m" +
+             sentences(outside_tests(layer));
+  return {row};
+}
+
+std::vector<CheckRow> blanket_checks(const ResultsReader& results,
+                                     const BlanketSettings& settings) {
+  if (settings.aquifer.empty()) return {};
+  const std::string table = "check.blanket";
+  const Section section(results, table);
+  const Scene& scene = results.scene().scene;
+  const double towards_land = settings.landside_toe > settings.riverside_toe ? 1.0 : -1.0;
+  const std::string toe_key = table + ".landside_toe";
+  const GroundPlace<2> toe = section.ground_at(settings.landside_toe, toe_key);
+  const auto line = section.lines().below(toe);
+
+  BlanketSection blanket;
+  blanket.base = std::abs(settings.landside_toe - settings.riverside_toe);
+  blanket.aquifer_thickness = section.lines().length_in(line, settings.aquifer);
+  blanket.aquifer_conductivity = scene.find_soil(settings.aquifer)->conductivity;
+  blanket.riverside = side_of(results, section, settings, settings.riverside_toe, -towards_land,
+                              settings.riverside, table + ".riverside_toe");
+  blanket.landside = side_of(results, section, settings, settings.landside_toe, towards_land,
+                             settings.landside, toe_key);
+  if (!(blanket.aquifer_thickness > 0.0) || !blanket.landside.covered()) {
+    refuse_setting(results, toe_key, short_text(settings.landside_toe) + " m",
+                   "an x beyond which the aquifer \"" + settings.aquifer +
+                       "\" lies below the cover \"" + settings.cover + "\"");
+  }
+
+  // The node of the aquifer's top nearest to the toe.
+  const auto first = std::ranges::find_if(line, [&](const LineSegment<2>& segment) {
+    return section.lines().region_of(segment.element) == settings.aquifer;
+  });
+  if (first == line.begin())
+    refuse_setting(results, toe_key, "an aquifer without a cover", "a toe on the cover");
+  const LineSegment<2>& above = *std::prev(first);
+  ToeHeads worst;
+  for (std::size_t i = 0; i < results.times().size(); ++i) {
+    const std::vector<double> head = any_field(results, i, "node", "head").values;
+    const auto at = [&](int element, const std::array<double, 3>& weights) {
+      double sum = 0.0;
+      for (int a = 0; a < 3; ++a) sum += weights[a] * head[section.mesh().elements[element][a]];
+      return sum;
+    };
+    // Dry ground does not lower the level at which water would leave.
+    const double ground =
+        std::max(at(toe.element, toe.weights), height(toe.position, scene.gravity));
+    const double river = largest_head(section, head, settings.entry) - ground;
+    if (!(river > worst.river)) continue;
+    worst = {results.times()[i], river, at(above.element, above.base_weights) - ground};
+  }
+
+  CheckRow row{.mechanism = "blanket", .where = settings.cover, .clause = "EM 1110-2-1913, B"};
+  const double excess = toe_share(blanket) * worst.river;
+  const std::size_t last = results.times().size() - 1;
+  row.time = worst.time;
+  row.effect = excess / blanket.landside.cover_thickness;
+  row.resistance = critical_gradient(results, last)[above.element];
+  row.unit = "1";
+  row.place = {toe.position[0], toe.position[1]};
+  if (row.effect > 0.0) row.factor = row.resistance / row.effect;
+  row.note = "head below the cover at the toe: " + short_text(excess) + " m by blanket theory, " +
+             short_text(worst.computed) + " m computed, of " + short_text(worst.river) +
+             " m of the river" + sentences(broken_assumptions(blanket));
+  return {row};
+}
+
+}  // namespace suffuse

@@ -1,0 +1,67 @@
+#pragma once
+
+/// Vertical lines through the soil, from the ground down.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "scene/scene.hpp"
+
+namespace suffuse {
+
+/// The part of a vertical line in one element.
+template <int Dim>
+struct LineSegment {
+  int element = 0;
+  double length = 0.0;                       ///< m
+  std::array<double, Dim + 1> base_weights;  ///< barycentric coordinates of its lower end
+};
+
+/// A place on the ground: a face of soil that looks up, with no soil above it.
+template <int Dim>
+struct GroundPlace {
+  int element = 0;
+  Vector<Dim> position;                 ///< m
+  std::array<double, Dim + 1> weights;  ///< barycentric coordinates
+  Vector<Dim> outward;                  ///< normal of the face, of any length
+  std::string boundary;                 ///< empty: the face is part of none
+};
+
+template <int Dim>
+class VerticalLines {
+ public:
+  VerticalLines(const Mesh<Dim>& mesh, const Scene& scene);
+
+  /// The middle of each face of the ground.
+  [[nodiscard]] const std::vector<GroundPlace<Dim>>& ground() const { return ground_; }
+  /// The ground at x, m; nothing where there is none. In two dimensions.
+  [[nodiscard]] std::optional<GroundPlace<Dim>> ground_at(double x) const;
+  /// The line from a place on the ground down to the end of the soil, in order.
+  [[nodiscard]] std::vector<LineSegment<Dim>> below(const GroundPlace<Dim>& place) const;
+  /// Length of a line within a region, m.
+  [[nodiscard]] double length_in(const std::vector<LineSegment<Dim>>& line,
+                                 const std::string& region) const;
+  [[nodiscard]] const std::string& region_of(int element) const {
+    return mesh_.region_names[mesh_.element_region[element]];
+  }
+
+ private:
+  [[nodiscard]] bool is_soil(int element) const;
+  /// The element behind the face opposite to a corner; -1 if there is none.
+  [[nodiscard]] int neighbour(int element, int corner) const {
+    return neighbours_[element][corner];
+  }
+  void find_neighbours();
+  void find_ground();
+
+  const Mesh<Dim>& mesh_;
+  const Scene& scene_;
+  Vector<Dim> up_;
+  std::vector<std::array<int, Dim + 1>> neighbours_;
+  std::vector<GroundPlace<Dim>> ground_;
+};
+
+}  // namespace suffuse
