@@ -19,6 +19,7 @@
 #include "physics/skeleton/skeleton_model.hpp"
 #include "scene/check_settings.hpp"
 #include "scene/gradation.hpp"
+#include "scene/lognormal_field.hpp"
 #include "scene/time_function.hpp"
 
 namespace suffuse {
@@ -122,6 +123,7 @@ struct Soil {
   RetentionModel retention;                   ///< without a law: saturated at any pressure
   const ConductivityLaw* conductivity_law = conductivity_laws().front();  ///< never null
   ConductivityParameters conductivity_parameters;
+  FieldModel field;  ///< how the conductivity varies about `conductivity`, its mean
   SoilDrag drag = SoilDrag::darcy;
   ErosionSettings erosion;
   DepositionModel deposition;

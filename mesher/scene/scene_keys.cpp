@@ -15,6 +15,12 @@ auto in_viscosity(Member ViscosityModel::*member) {
   return at(&Scene::liquid, &LiquidProperties::viscosity_model, member);
 }
 
+/// A member of the field of a soil's conductivity.
+template <class Member>
+auto in_field(Member FieldModel::*member) {
+  return [=](Scene& scene, std::size_t i) -> Member& { return scene.soils[i].field.*member; };
+}
+
 /// Storage of a number of rows of elements next to the specimen.
 auto rows(int LayerSettings::*member) {
   return at(&Scene::geometry, &GeometrySettings::layers, member);
@@ -117,6 +123,25 @@ Declaration conductivity() {
     const auto* pair = std::get_if<std::vector<double>>(&value);
     scene.soils[i].conductivity = pair ? pair->front() : std::get<double>(value);
     scene.soils[i].conductivity_across = pair ? pair->back() : unset;
+  };
+  return d;
+}
+
+/// Declares the correlation lengths of a conductivity that varies: one number, or one along and one
+/// across bedding.
+Declaration correlation() {
+  Declaration d = key(
+      "soil.*.field.correlation",
+      [](Scene& scene, std::size_t i) -> double& { return scene.soils[i].field.along; },
+      "Distance at which the correlation of ln k has fallen to 1/e, exp(-(r/l)^2): "
+      "the same in all directions, or along and across bedding. Elements should be "
+      "smaller than a third of it.");
+  d.kind = ValueKind::number_or_pair;
+  d.store = [](Scene& scene, std::size_t i, const Value& value) {
+    const auto* pair = std::get_if<std::vector<double>>(&value);
+    FieldModel& field = scene.soils[i].field;
+    field.along = pair ? pair->front() : std::get<double>(value);
+    field.across = pair ? pair->back() : field.along;
   };
   return d;
 }
@@ -455,6 +480,19 @@ std::vector<SceneKey> declare_keys() {
           .above(0.0)
           .or_infinite()
           .otherwise_as("`inf`"),
+
+      key("soil.*.field.variation", in_field(&FieldModel::variation),
+          "Standard deviation of the conductivity over its mean, `conductivity`: the conductivity "
+          "is a lognormal field.")
+          .above(0.0)
+          .at_most(10.0)
+          .otherwise_as("required with any other key of the field"),
+      correlation().named("l").in("m").above(0.0).otherwise_as("required with `variation`"),
+      key("soil.*.field.seed", in_field(&FieldModel::seed),
+          "Number of the draw: the same seed gives the same field on any mesh.")
+          .at_least(0)
+          .at_most(2147483647)
+          .otherwise(1),
 
       choice("soil.*.retention.model", in_retention(&RetentionModel::law), retention_meanings(),
              chained(texts_of(retention_laws(), &RetentionLaw::description), "; ", "; ") +

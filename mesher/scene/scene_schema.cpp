@@ -69,6 +69,9 @@ const std::vector<SceneSection>& scene_sections() {
       {"soil.*.deposition", "[soil.NAME.deposition]",
        "How this soil catches fluidised grains: phi_d = lambda_d |q| c, times the room that is "
        "left."},
+      {"soil.*.field", "[soil.NAME.field]",
+       "A conductivity that varies at random from place to place. Single-point, rigid soil with "
+       "Darcy's drag only."},
       {"soil.*.retention", "[soil.NAME.retention]",
        "How much liquid the pores of this soil hold under suction, psi = p/(rho_w g) < 0, and how "
        "well it then conducts: S = S_r + (1 - S_r) S_e, conductivity k_r k. Without this table the "

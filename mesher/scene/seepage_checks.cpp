@@ -33,10 +33,37 @@ class SeepageChecks : private SceneCheckBase {
  private:
   void check_soil(const Soil& soil, const std::string& table) const {
     check_retention(soil, table + ".retention");
+    check_field(soil, table);
     if (given(table + ".bedding") && !given(table + ".like") && given(table + ".conductivity") &&
         !refused(table + ".conductivity") && std::isnan(soil.conductivity_across)) {
       report(table + ".bedding", "an angle of bedding and one conductivity",
              "conductivity = [along, across], or no such key", {table + ".conductivity"});
+    }
+  }
+
+  void check_field(const Soil& soil, const std::string& table) const {
+    const std::string field = table + ".field";
+    for (const std::string& name : scene_children("soil.*.field")) {
+      if (!given(joined(field, name))) continue;
+      for (const std::string needed : {"variation", "correlation"}) {
+        require(joined(field, needed), "soil.*.field." + needed, "as " + name + " is given",
+                joined(field, name));
+      }
+      break;
+    }
+    if (!soil.field.varies()) return;
+    const std::string found = "a conductivity that varies";
+    if (scene_.formulation == Formulation::double_point) {
+      report(field, found + " in a double-point scene",
+             "formulation = \"single-point\", or no field", {"formulation"});
+    }
+    if (soil.skeleton.moves()) {
+      report(field, found + " in soil that moves", "a rigid skeleton, or no field",
+             {table + ".skeleton.law"});
+    }
+    if (soil.drag == SoilDrag::ergun) {
+      report(field, found + " with drag = \"ergun\"", "drag = \"darcy\", or no field",
+             {table + ".drag"});
     }
   }
 

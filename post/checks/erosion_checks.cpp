@@ -13,24 +13,29 @@ namespace {
 template <int Dim>
 class SoilDrive {
  public:
-  SoilDrive(const ResultsReader& results, const Mesh<Dim>& mesh, std::size_t index)
-      : results_(results),
-        mesh_(mesh),
+  SoilDrive(const ResultsReader& results, const Mesh<Dim>& mesh, const Soil& soil,
+            std::size_t index)
+      : mesh_(mesh),
+        soil_(soil),
+        model_(soil.exchange_model(results.scene().scene.liquid)),
+        factor_(conductivity_factor(results, soil)),
         flux_(results.field(index, "cell", "darcy_flux").values),
         porosity_(results.field(index, "cell", "porosity").values),
         concentration_(results.field(index, "cell", "concentration").values) {}
 
-  [[nodiscard]] double at(const ExchangeModel& model, const Soil& soil, int element) const {
+  [[nodiscard]] double at(int element) const {
     const Vector<Dim> q = Vector<Dim>::Map(&flux_[Dim * static_cast<std::size_t>(element)]);
-    const double initial = soil.initial_porosity(element_centroid(mesh_, element));
-    const PlaceFlow flow{.resistance = soil.resistance_along(q),
+    const double initial = soil_.initial_porosity(element_centroid(mesh_, element));
+    const PlaceFlow flow{.resistance = soil_.resistance_along(q),
                          .concentration = concentration_[element]};
-    return erosion_drive(model, {initial, porosity_[element]}, flow, q.norm());
+    return drive_at(model_, {initial, porosity_[element], factor_[element]}, flow, q.norm());
   }
 
  private:
-  const ResultsReader& results_;
   const Mesh<Dim>& mesh_;
+  const Soil& soil_;
+  ExchangeModel model_;
+  std::vector<double> factor_;
   std::vector<double> flux_;
   std::vector<double> porosity_;
   std::vector<double> concentration_;
@@ -50,17 +55,17 @@ CheckRow without_threshold(const Soil& soil) {
 
 template <int Dim>
 CheckRow threshold_check(const ResultsReader& results, const Mesh<Dim>& mesh, const Soil& soil) {
-  const ExchangeModel model = soil.exchange_model(results.scene().scene.liquid);
+  const ErosionModel model = soil.erosion_model();
   CheckRow row = without_threshold(soil);
   row.note.clear();
-  row.unit = std::string(model.erosion.drive->unit);
-  row.resistance = model.erosion.threshold;
+  row.unit = std::string(model.drive->unit);
+  row.resistance = model.threshold;
   row.effect = 0.0;
   for (std::size_t i = 0; i < results.times().size(); ++i) {
-    const SoilDrive<Dim> drive(results, mesh, i);
+    const SoilDrive<Dim> drive(results, mesh, soil, i);
     for (int e = 0; e < mesh.element_count(); ++e) {
       if (!is_in(mesh, e, soil)) continue;
-      const double found = drive.at(model, soil, e);
+      const double found = drive.at(e);
       if (!(found > row.effect)) continue;
       row.effect = found;
       row.time = results.times()[i];

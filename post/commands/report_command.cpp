@@ -9,17 +9,24 @@ namespace {
 struct ReportOptions {
   std::vector<std::string> results;
   std::string output;
+  std::vector<std::string> tables;
 };
 
 void declare_report(CLI::App& command, ReportOptions& o) {
   add_results(command, o.results);
   command.add_option("-o,--output", o.output, "page to write")->required()->type_name("FILE.html");
+  command
+      .add_option(
+          "--table", o.tables,
+          "a table to show on the first page, such as factors of safety or critical levels; "
+          "repeatable")
+      ->type_name("FILE.csv");
 }
 
 void report(const ReportOptions& o) {
   const auto runs = open_all(o.results);
   for (const auto& run : runs) refuse_inside(run, "-o", o.output);
-  write_report(runs, o.output);
+  write_report(runs, o.output, o.tables);
 }
 
 }  // namespace

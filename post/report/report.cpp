@@ -5,6 +5,7 @@
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
 #include "files/number_text.hpp"
+#include "report/first_page.hpp"
 #include "report/html.hpp"
 #include "report/page_files.hpp"  // generated: page_style, page_script
 #include "report/report_pictures.hpp"
@@ -92,7 +93,8 @@ std::string page(const std::string& title, const std::string& body) {
 
 }  // namespace
 
-std::string report_html(const std::vector<ResultsReader>& runs) {
+std::string report_html(const std::vector<ResultsReader>& runs,
+                        const std::vector<std::string>& tables) {
   const std::vector<std::string> labels = run_labels(runs);
   std::vector<RunNumbers> numbers;
   std::string title;
@@ -102,23 +104,24 @@ std::string report_html(const std::vector<ResultsReader>& runs) {
   }
   const bool several = runs.size() > 1;
   std::string body = several ? runs_table(labels, runs, numbers) : "";
-  if (!several) {
-    body = "<p class=\"summary\">" + html::escaped(summary_text(runs[0], numbers[0])) + "</p>\n";
-  }
+  if (!several) body = first_page(runs[0], numbers[0]);
+  for (const std::string& path : tables) body += table_file_html(path);
   body += contents(labels) + "<h2 id=\"curves\">Curves</h2>\n" + curves_html(runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     body += "<section class=\"run\" id=\"" + id_of(r) + "\">\n" +
             html::element("h2", several ? labels[r] : "The run");
-    if (several) body += html::element("p", summary_text(runs[r], numbers[r]));
+    if (several) body += first_page(runs[r], numbers[r]);
     body += run_section(runs[r], numbers[r], id_of(r)) + "</section>\n";
   }
   return page(title, body);
 }
 
-void write_report(const std::vector<ResultsReader>& runs, const std::string& path) {
+void write_report(const std::vector<ResultsReader>& runs, const std::string& path,
+                  const std::vector<std::string>& tables) {
+  const std::string page = report_html(runs, tables);
   PendingFile file(path);
   std::ofstream out(file.temporary_path(), std::ios::binary);
-  out << report_html(runs) << std::flush;
+  out << page << std::flush;
   if (!out) throw FileError(path + ": could not be written whole; is the disk full?");
   file.commit();
 }

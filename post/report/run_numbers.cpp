@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/errors.hpp"
 #include "files/number_text.hpp"
 #include "report/report_pictures.hpp"
 #include "values/derived_fields.hpp"
@@ -46,6 +47,19 @@ std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
   return text + ". ";
 }
 
+/// A report has no checks where the run has no gradients yet, or where the settings do not suit it.
+void add_checks(const ResultsReader& run, RunNumbers& numbers) {
+  if (!has_gradients(run)) {
+    numbers.checks_refused = "these results have no hydraulic gradient";
+    return;
+  }
+  try {
+    numbers.checks = check_run(run, run.scene().scene.check);
+  } catch (const InputError& error) {
+    numbers.checks_refused = error.what();
+  }
+}
+
 }  // namespace
 
 RunNumbers run_numbers(const ResultsReader& run) {
@@ -63,6 +77,7 @@ RunNumbers run_numbers(const ResultsReader& run) {
     if (is_worse) numbers.worst = balance;
   }
   if (has_gradients(run)) numbers.safety = safety_of(run);
+  add_checks(run, numbers);
   return numbers;
 }
 

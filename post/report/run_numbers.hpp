@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "checks/checks.hpp"
 #include "checks/heave_safety.hpp"
 #include "results/reader.hpp"
 #include "results/run_record.hpp"
@@ -24,6 +25,8 @@ struct RunNumbers {
   std::vector<Balance> balances;
   std::optional<Balance> worst;    ///< the balance with the largest residual
   std::vector<PartSafety> safety;  ///< all soil first
+  std::optional<CheckReport> checks;
+  std::string checks_refused;  ///< why there are no checks
 };
 
 /// Throws FileError.

@@ -51,6 +51,23 @@ std::vector<double> full_saturation(const ResultsReader& results, std::size_t in
   return values;
 }
 
+std::vector<double> conductivity(const ResultsReader& results, std::size_t index) {
+  const std::vector<double> porosity = results.field(index, "cell", "porosity").values;
+  std::vector<double> values(porosity.size(), std::numeric_limits<double>::quiet_NaN());
+  with_mesh(results, [&](const auto& mesh) {
+    for (const Soil& soil : results.scene().scene.soils) {
+      const ConductivityModel model = soil.conductivity_model();
+      const std::vector<double> factor = conductivity_factor(results, soil);
+      for (int e = 0; e < mesh.element_count(); ++e) {
+        if (mesh.region_names[mesh.element_region[e]] != soil.region) continue;
+        const double initial = soil.initial_porosity(element_centroid(mesh, e));
+        values[e] = factor[e] * model.at(initial, porosity[e]);
+      }
+    }
+  });
+  return values;
+}
+
 std::vector<double> fines_content(const ResultsReader& results, std::size_t index,
                                   const std::string& where) {
   std::vector<double> values = results.field(index, where, "erodible_fraction").values;
@@ -97,6 +114,7 @@ const std::vector<DerivedField>& derived_fields() {
   static const std::vector<DerivedField> fields{
       {"cell", "head", "m", "pressure", cell_head},
       {"node", "head", "m", "pressure", node_head},
+      {"cell", "conductivity", "m/s", "porosity", conductivity},
       {"cell", "saturation", "1", "porosity", full_saturation},
       {"cell", "fines_content", "1", "erodible_fraction",
        [](const auto& results, auto index) { return fines_content(results, index, "cell"); }},
@@ -147,6 +165,19 @@ std::vector<double> critical_gradient(const ResultsReader& results, std::size_t 
     }
   });
   return values;
+}
+
+std::vector<double> conductivity_factor(const ResultsReader& results, const Soil& soil) {
+  return with_mesh(results, [&](const auto& mesh) {
+    std::vector<double> factor(mesh.elements.size(), 1.0);
+    if (!soil.field.varies()) return factor;
+    const LognormalField field(soil.field, soil.bedding);
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      if (mesh.region_names[mesh.element_region[e]] != soil.region) continue;
+      factor[e] = field.at(element_centroid(mesh, e));
+    }
+    return factor;
+  });
 }
 
 std::vector<double> upward_gradient(const ResultsReader& results, std::size_t index) {

@@ -13,6 +13,7 @@ namespace suffuse {
 /// "solid" or "liquid". In addition to those stored:
 /// - "head", m, of cells at their centroids and of nodes: h = p / (rho_w g) + z, above the datum of
 ///   the scene; without gravity p / (rho_w 9.81 m/s2)
+/// - "conductivity" of cells, m/s: that along bedding of soil filled with clean water
 /// - "saturation" of cells, where every soil is saturated: 1
 /// - "fines_content" of cells and solid points: erodible share of the dry mass, n_e / (1 - n)
 /// - "water_fraction" at the vertices of elements: n S - n_f
@@ -27,6 +28,9 @@ Field any_field(const ResultsReader& results, std::size_t index, const std::stri
 /// The hydraulic gradient at which water that rises lifts the soil (Terzaghi), per cell:
 /// i_cr = (1 - n) (rho_s / rho_w - 1). Not a number in free water.
 std::vector<double> critical_gradient(const ResultsReader& results, std::size_t index);
+
+/// k of each cell over that of this soil, whose conductivity may be a random field.
+std::vector<double> conductivity_factor(const ResultsReader& results, const Soil& soil);
 
 /// The component of the hydraulic gradient against gravity, without gravity along `upward`, per
 /// cell; 0 where the soil is not saturated. The safety is the critical gradient over it, infinite

@@ -75,8 +75,9 @@ FlowCoefficients<Dim> worst_coefficients(const Case<Dim>& c, const Grid<Dim>& gr
     const bool erodes = last[e] > first[e];
     const Soil& soil = soils.soil_of_element(e);
     const auto drag_at = [&](double porosity) {
-      return darcy_drag(porosity, scene.liquid.density,
-                        soil.conductivity_model().at(first[e], porosity));
+      return darcy_drag(
+          porosity, scene.liquid.density,
+          soils.conductivity_factor(e) * soil.conductivity_model().at(first[e], porosity));
     };
     // Explicit drag lowers the limit, implicit drag raises it. With most laws drag decreases with
     // porosity; with a constant conductivity it increases.

@@ -119,15 +119,16 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
     const SurfaceSoil soil = surface_soil(e, porosity);
     result.drag[e] =
         darcy_drag(porosity, water_density,
-                   soil.easier * conductivity_at(model.conductivity, model.viscosity,
-                                                 start_porosity(e), soil.porosity, concentration));
+                   soils_.conductivity_factor(e) * soil.easier *
+                       conductivity_at(model.conductivity, model.viscosity, start_porosity(e),
+                                       soil.porosity, concentration));
     if (!grain_size_.empty()) {
       result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
     }
     if (soils_.soil_of_element(e).erosion.momentum_transfer) {
       const double flux = pores.flux.empty() ? unset : pores.flux[e];
       const Exchange rate = exchange_rate(
-          model, {start_porosity(e), porosity},
+          model, {start_porosity(e), porosity, soils_.conductivity_factor(e)},
           {.flux_start = flux, .flux_end = flux, .concentration = concentration}, time);
       result.drag[e] += grain_density_ * rate.eroded / porosity;
     }

@@ -79,7 +79,8 @@ SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
     const Vector<Dim> flux = flux_at(grid, flow.face_flux, e, element_centroid(grid.mesh, e));
     const double relative =
         flow.relative_conductivity.empty() ? 1.0 : flow.relative_conductivity[e];
-    const double conductivity = soils.soil_of_element(e).conductivity * relative;
+    const double conductivity =
+        soils.conductivity_factor(e) * soils.soil_of_element(e).conductivity * relative;
     now.add(weight * grid.volume[e] * flux.dot(gradient[e]));
     initial.add(weight * grid.volume[e] * flux.squaredNorm() * soils.resistance_along(e, flux) /
                 conductivity);

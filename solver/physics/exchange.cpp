@@ -14,7 +14,8 @@ LocalState drive_state(const ExchangeModel& model, const SoilPlace& place, const
   LocalState state{.porosity = place.porosity, .flux = flux};
   if (!model.drive_depends_on_conductivity()) return state;
   const double weight = model.water_density * conductivity_gravity;
-  const double clean = model.conductivity.at(place.initial_porosity, place.porosity);
+  const double clean =
+      place.conductivity_factor * model.conductivity.at(place.initial_porosity, place.porosity);
   const double thickening =
       model.viscosity.depends_on_concentration() ? model.viscosity.ratio(flow.concentration) : 1.0;
   state.unit_weight = weight;
@@ -213,8 +214,8 @@ Exchange SoilVolume::integrated() const {
 
 }  // namespace
 
-double erosion_drive(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
-                     double flux) {
+double drive_at(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                double flux) {
   const DriveLaw& drive = *model.erosion.drive;
   return drive.depends_on_flow() ? drive.value(drive_state(model, place, flow, flux)) : 1.0;
 }
@@ -223,8 +224,7 @@ Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const
                        double time) {
   const bool erodes_now = erodes(model.erosion) && time >= model.erosion.start;
   const double drive =
-      erodes_now ? drive_rate(model.erosion, erosion_drive(model, place, flow, flow.flux_start))
-                 : 0.0;
+      erodes_now ? drive_rate(model.erosion, drive_at(model, place, flow, flow.flux_start)) : 0.0;
   const PlaceFlow now{.flux_start = flow.flux_start,
                       .flux_end = flow.flux_start,
                       .concentration = flow.concentration,
@@ -251,14 +251,15 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
     return SoilVolume(model, place, flow, scaled, caught).integrated();
   };
   if (!erodes(model.erosion) || to <= model.erosion.start) return with_drives(0.0, 0.0);
-  const double first = erosion_drive(model, place, flow, flow.flux_start);
+  const double first = drive_at(model, place, flow, flow.flux_start);
   const bool opens =
       model.drive_depends_on_conductivity() && model.conductivity.depends_on_porosity();
   if (!opens && flow.flux_end == flow.flux_start) return with_drives(first, first);
-  if (!opens) return with_drives(first, erosion_drive(model, place, flow, flow.flux_end));
+  if (!opens) return with_drives(first, drive_at(model, place, flow, flow.flux_end));
   const double predicted = place.porosity + with_drives(first, first).into_liquid();
   return with_drives(
-      first, erosion_drive(model, {place.initial_porosity, predicted}, flow, flow.flux_end));
+      first, drive_at(model, {place.initial_porosity, predicted, place.conductivity_factor}, flow,
+                      flow.flux_end));
 }
 
 }  // namespace suffuse

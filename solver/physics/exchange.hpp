@@ -60,8 +60,9 @@ struct ExchangeModel {
 
 /// The solid at a place.
 struct SoilPlace {
-  double initial_porosity = unset;  ///< n_0
-  double porosity = unset;          ///< n_L
+  double initial_porosity = unset;   ///< n_0
+  double porosity = unset;           ///< n_L
+  double conductivity_factor = 1.0;  ///< k at this place over that of the model
 };
 
 /// Motion of the liquid at a place during a step.
@@ -92,8 +93,8 @@ struct Exchange {
 };
 
 /// D at |q| = `flux`, m/s, in the unit of the drive; 1 for erosion by time alone.
-double erosion_drive(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
-                     double flux);
+double drive_at(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,
+                double flux);
 
 /// phi_e and phi_d at a time (s) and the flow at the start of the step, 1/s.
 Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const PlaceFlow& flow,

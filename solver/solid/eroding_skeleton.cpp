@@ -61,7 +61,7 @@ void ErodingSkeleton<Dim>::exchange_in(int element, double from, double to, cons
       take(p, eroded_at(model.erosion, p, porosity_[p], from, to, flows));
       continue;
     }
-    const SoilPlace place{initial_porosity_[p], porosity_[p]};
+    const SoilPlace place{initial_porosity_[p], porosity_[p], soils_.conductivity_factor(element)};
     take(p, exchange_over(model, place, flows.at(p, element, from, to), from, to));
   }
 }

@@ -78,7 +78,22 @@ SoilMap<Dim>::SoilMap(const Case<Dim>& c)
     still_flux_.push_back(still_gradient * across + still_share * most_conductive);
   }
   find_dependence();
+  draw_fields();
   find_points_begin();
+}
+
+template <int Dim>
+void SoilMap<Dim>::draw_fields() {
+  for (std::size_t region = 0; region < soil_of_region_.size(); ++region) {
+    const Soil& soil = *soil_of_region_[region];
+    if (!soil.field.varies()) continue;
+    if (!conductivity_factor_) conductivity_factor_.emplace(mesh_.element_count(), 1.0);
+    const LognormalField field(soil.field, soil.bedding);
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      if (mesh_.element_region[e] != static_cast<int>(region)) continue;
+      (*conductivity_factor_)[e] = field.at(element_centroid(mesh_, e));
+    }
+  }
 }
 
 template <int Dim>

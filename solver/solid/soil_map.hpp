@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "case/case_file.hpp"
@@ -101,6 +102,10 @@ class SoilMap {
   }
   /// Gradient along a flux over |q|/k, k being that along bedding; 1 for no flux.
   [[nodiscard]] double resistance_along(int element, const Vector<Dim>& flux) const;
+  /// k of an element over that of its soil, whose conductivity may be a random field.
+  [[nodiscard]] double conductivity_factor(int element) const {
+    return conductivity_factor_ ? (*conductivity_factor_)[element] : 1.0;
+  }
   /// n_0 of a solid point that has not moved.
   [[nodiscard]] double initial_porosity(int point) const {
     return soil_of_point(point).initial_porosity(points_->position(mesh_, point));
@@ -128,6 +133,7 @@ class SoilMap {
 
  private:
   void find_dependence();
+  void draw_fields();
   void find_points_begin();
   void find_element_region();
 
@@ -142,7 +148,8 @@ class SoilMap {
   std::vector<const Soil*> soil_of_region_;
   std::vector<ExchangeModel> exchange_of_region_;
   Dependence dependence_;
-  std::vector<double> still_flux_;  ///< per region: |q| of still water, m/s
+  std::vector<double> still_flux_;                          ///< per region: |q| of still water, m/s
+  std::optional<std::vector<double>> conductivity_factor_;  ///< per element; nothing: 1
 };
 
 }  // namespace suffuse

@@ -5,13 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <sstream>
 
 #include "checks/heave_safety.hpp"
-#include "post/synthetic_results.hpp"
-#include "test_paths.hpp"
+#include "post/run_programs.hpp"
 #include "values/sample.hpp"
 
 namespace suffuse {
@@ -50,18 +48,8 @@ std::string scene() {
   return text.str();
 }
 
-/// Meshes and solves into `scratch`.
 ResultsReader run(const ScratchFolder& scratch, double size) {
-  std::ofstream(scratch / "pile.geo") << geometry(size);
-  std::ofstream(scratch / "pile.toml") << scene();
-  const std::string programs = std::string(SUFFUSE_BIN) + "/";
-  const std::string folder = scratch / "pile.results";
-  const std::string commands = programs + "suffuse-mesher " + scratch / "pile.toml" + " -o " +
-                               scratch / "pile.case.h5" + " > " + scratch / "log" + " && " +
-                               programs + "suffuse-solver " + scratch / "pile.case.h5" + " -o " +
-                               folder + " --quiet";
-  EXPECT_EQ(std::system(commands.c_str()), 0);
-  return ResultsReader(folder);
+  return testing::run_programs(scratch, "pile", scene(), geometry(size));
 }
 
 TEST(ExitGradient, BesideASheetPileIsTheExactOne) {

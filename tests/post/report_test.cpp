@@ -197,6 +197,23 @@ TEST_F(Report, NeedsNothingElseAndSaysWhatItShows) {
   expect_commands();
 }
 
+/// These results have no gradients; a table of the user's stands on the first page.
+TEST_F(Report, FirstPageSaysWhatItLacksAndShowsTables) {
+  EXPECT_NE(page.find("The checks of standards could not be made: these results have no hydraulic "
+                      "gradient."),
+            std::string::npos);
+  std::ofstream(scratch / "factors.csv")
+      << "t [s],factor [-],why\n0,1.25,\n10,,\"fails, at once\"\n";
+  const std::string with_table = report_html({ResultsReader(folder)}, {scratch / "factors.csv"});
+  const PageRows rows = table_of(with_table, "added");
+  ASSERT_EQ(rows.size(), 2U);
+  expect_number(rows[0][1], 1.25);
+  EXPECT_EQ(rows[1][1].text, "-");
+  EXPECT_EQ(rows[1][2].text, "fails, at once");
+  std::ofstream(scratch / "short.csv") << "a,b\n1\n";
+  EXPECT_THROW(report_html({ResultsReader(folder)}, {scratch / "short.csv"}), InputError);
+}
+
 TEST_F(Report, IsWrittenWholeOrNotAtAll) {
   const std::string path = scratch / "report.html";
   write_report({ResultsReader(folder)}, path);

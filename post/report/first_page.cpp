@@ -1,0 +1,104 @@
+#include "report/first_page.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/errors.hpp"
+#include "files/number_text.hpp"
+#include "files/table_files.hpp"
+#include "report/html.hpp"
+#include "tables/discharge_text.hpp"
+#include "values/time_unit.hpp"
+
+namespace suffuse {
+namespace {
+
+html::Cell optional_cell(double value) {
+  return std::isnan(value) ? html::cell("-") : html::cell(value);
+}
+
+std::string state_of(const CheckRow& row) {
+  if (!row.factor) return "-";
+  return row.fails() ? "EXCEEDED" : "kept";
+}
+
+std::string mechanisms_html(const RunNumbers& numbers) {
+  if (!numbers.checks) {
+    return html::element(
+        "p", "The checks of standards could not be made: " + numbers.checks_refused + ".");
+  }
+  const TimeUnit unit = fitting_time_unit(numbers.end);
+  html::Table table{"mechanisms",
+                    {"mechanism", "where", "limit", "factor [-]", "effect", "resistance", "unit",
+                     "at t", "at [m]", "by"},
+                    {}};
+  std::vector<std::string> notes;
+  for (const CheckRow& row : numbers.checks->rows) {
+    table.rows.push_back(
+        {html::cell(row.mechanism), html::cell(row.where), html::cell(state_of(row)),
+         row.factor ? html::cell(*row.factor) : html::cell("-"), optional_cell(row.effect),
+         optional_cell(row.resistance), html::cell(row.unit.empty() ? "-" : row.unit),
+         std::isnan(row.time) ? html::cell("-") : html::cell(row.time, time_text(row.time, unit)),
+         html::cell(row.place.empty() ? "-" : place_text(row.place)), html::cell(row.clause)});
+    if (!row.note.empty())
+      notes.push_back(row.mechanism + ", " + row.where + ": " + row.note + ".");
+  }
+  return html::element("p",
+                       "Factor: resistance over effect, with the partial factors of the clause. A "
+                       "limit is exceeded below 1. Each row is the worst of all snapshots.") +
+         table.html() + (notes.empty() ? "" : html::list(notes));
+}
+
+std::string accuracy_html(const ResultsReader& run) {
+  const std::string known = discharge_text(run);
+  return html::element(
+      "p", known.empty()
+               ? "The error of the mesh is not known: the scene has no mesh.error. A study "
+                 "of convergence (make convergence) or mesh.error gives it."
+               : known + ".");
+}
+
+std::string gaps_html(const RunNumbers& numbers) {
+  return numbers.checks ? html::list(numbers.checks->not_looked_at) : "";
+}
+
+}  // namespace
+
+std::string first_page(const ResultsReader& run, const RunNumbers& numbers) {
+  return "<p class=\"summary\">" + html::escaped(summary_text(run, numbers)) + "</p>\n" +
+         html::element("h3", "Mechanisms") + mechanisms_html(numbers) +
+         html::element("h3", "How sure") + accuracy_html(run) +
+         html::element("h3", "Not looked at") + gaps_html(numbers);
+}
+
+std::string table_file_html(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw FileError(path + ": cannot be read");
+  std::string line;
+  html::Table table{"added", {}, {}};
+  for (int number = 1; std::getline(in, line); ++number) {
+    const std::vector<std::string> cells = csv_cells(line);
+    if (table.heads.empty()) {
+      table.heads = cells;
+      continue;
+    }
+    if (cells.size() != table.heads.size()) {
+      throw InputError(InputProblem{path + ":" + std::to_string(number), "--table",
+                                    std::to_string(cells.size()) + " cells",
+                                    std::to_string(table.heads.size()) + ", one for each name"});
+    }
+    auto& row = table.rows.emplace_back();
+    for (const std::string& text : cells) {
+      const auto value = parse_number(text);
+      row.push_back(value ? html::cell(*value) : html::cell(text.empty() ? "-" : text));
+    }
+  }
+  if (table.heads.empty()) {
+    throw InputError(
+        InputProblem{path, "--table", "an empty file", "a CSV table with a line of names"});
+  }
+  return html::element("h3", std::filesystem::path(path).stem().string()) + table.html();
+}
+
+}  // namespace suffuse

@@ -1,0 +1,290 @@
+/// `suffuse-post check` on runs whose heads are known.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "checks/checks.hpp"
+#include "checks/sellmeijer.hpp"
+#include "common/errors.hpp"
+#include "post/run_programs.hpp"
+#include "report/report.hpp"
+
+namespace suffuse {
+namespace checks_test {
+
+using testing::run_programs;
+using testing::ScratchFolder;
+
+constexpr double water = 9810.0;  // unit weight, N/m3
+
+std::string soil(const std::string& name, double conductivity, const std::string& more = {}) {
+  std::ostringstream text;
+  text << "[soil." << name << "]\nporosity = 0.35\nskeleton_fraction = 0.55\n"
+       << "grain_density = 2519.649\nconductivity = " << conductivity << "\n"
+       << more;
+  return text.str();
+}
+
+constexpr double bulk_weight = 19.5e3;  // of these soils, N/m3
+
+std::string top(const std::string& geometry) {
+  return "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n" + geometry +
+         "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
+         "initial.flow = \"steady\"\ntime.end = 1.0\noutput.every = 1.0\n";
+}
+
+std::string heads(double bottom, double above) {
+  std::ostringstream text;
+  text << "[[boundary]]\non = \"bottom\"\nhead = " << bottom << "\nconcentration = 0.0\n"
+       << "[[boundary]]\non = \"top\"\nhead = " << above << "\nconcentration = 0.0\n";
+  return text.str();
+}
+
+const CheckRow& row_of(const CheckReport& report, const std::string& mechanism,
+                       const std::string& where = {}) {
+  const auto found = std::ranges::find_if(report.rows, [&](const CheckRow& row) {
+    return row.mechanism == mechanism && (where.empty() || row.where == where);
+  });
+  if (found == report.rows.end()) throw std::runtime_error("no row of " + mechanism);
+  return *found;
+}
+
+/// A column of 3.2 m with water that rises through it; a threshold of 0.4 of the gradient.
+ResultsReader rising_water(const ScratchFolder& scratch, double excess, double on_top = 0.0) {
+  return run_programs(
+      scratch, "column",
+      top("geometry = { shape = \"column\", width = 0.4, height = 3.2 }\nmesh.size = 0.2\n") +
+          soil("specimen", 1e-4,
+               "erosion = { law = \"first-order\", rate = 1e-9, drive = \"gradient\", threshold = "
+               "0.4 }\n") +
+          heads(3.2 + on_top + excess, 3.2 + on_top));
+}
+
+TEST(Checks, HeaveOfAColumnIsExact) {
+  const ScratchFolder scratch;
+  const ResultsReader results = rising_water(scratch, 0.9363);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  const CheckRow& stresses = row_of(report, "hyd-stresses", "top");
+  EXPECT_NEAR(stresses.effect, 1.35 * (3.2 + 0.9363) * water, 1e-3);
+  EXPECT_NEAR(stresses.resistance, 0.9 * 3.2 * bulk_weight, 1.0);
+  EXPECT_NEAR(stresses.place[1], 0.0, 1e-9);
+  const CheckRow& forces = row_of(report, "hyd-forces", "top");
+  EXPECT_NEAR(forces.effect, 1.35 * 0.9363 * water, 1e-3);
+  EXPECT_NEAR(forces.resistance, 0.9 * 3.2 * (bulk_weight - water), 1.0);
+  EXPECT_NEAR(*row_of(report, "erosion").factor, 0.4 * 3.2 / 0.9363, 1e-9);
+  EXPECT_NEAR(*row_of(report, "heave").factor, 0.65 * 1.519649 * 3.2 / 0.9363, 1e-9);
+}
+
+/// Water that stands on the ground presses on soil and pores alike.
+TEST(Checks, WaterOnTheGroundChangesNothing) {
+  const ScratchFolder scratch;
+  const ResultsReader results = rising_water(scratch, 0.9363, 5.0);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  EXPECT_NEAR(row_of(report, "hyd-stresses").effect, 1.35 * (3.2 + 0.9363) * water, 1e-3);
+  EXPECT_NEAR(row_of(report, "hyd-forces").effect, 1.35 * 0.9363 * water, 1e-3);
+}
+
+TEST(Checks, SettingsChangeAfterTheRun) {
+  const ScratchFolder scratch;
+  const ResultsReader results = rising_water(scratch, 0.9363);
+  const auto with = [&](const std::string& change) {
+    return check_run(results, check_settings(results, {change}));
+  };
+  EXPECT_NEAR(row_of(with("check.heave.destabilising=1.0"), "hyd-forces").effect, 0.9363 * water,
+              1e-3);
+  EXPECT_NO_THROW(require_limit_states(with("check.heave.destabilising=1.0")));
+  EXPECT_THROW(require_limit_states(with("check.heave.destabilising=2.0")), NumericalError);
+  EXPECT_THROW(check_settings(results, {"soil.specimen.porosity=0.3"}), InputError);
+  EXPECT_THROW(check_settings(results, {"check.heave.stabilizing=1.0"}), InputError);
+}
+
+/// Water that sinks lifts nothing.
+TEST(Checks, SinkingWaterHasNoHeave) {
+  const ScratchFolder scratch;
+  const ResultsReader results = rising_water(scratch, -0.9);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  for (const CheckRow& row : report.rows) {
+    EXPECT_FALSE(row.mechanism.starts_with("hyd-")) << row.where;
+  }
+}
+
+/// Two layers of 1 m on top of each other.
+std::string two_layers() {
+  return "Point(1) = {0, 0, 0}; Point(2) = {0.5, 0, 0}; Point(3) = {0.5, 1, 0};\n"
+         "Point(4) = {0, 1, 0}; Point(5) = {0.5, 2, 0}; Point(6) = {0, 2, 0};\n"
+         "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+         "Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 4};\n"
+         "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+         "Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(2) = {2};\n"
+         "Physical Surface(\"sand\") = {1}; Physical Surface(\"clay\") = {2};\n"
+         "Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {6};\n";
+}
+
+constexpr const char* sand_sizes =
+    "gradation = [[0.05, 0], [0.1, 15], [0.3, 50], [1.0, 85], [2.0, 95], [4.0, 100]]\n";
+constexpr const char* gravel_sizes = "gradation = [[1.0, 0], [3.0, 15], [20.0, 100]]\n";
+
+ResultsReader layers(const ScratchFolder& scratch, double bottom, double above) {
+  return run_programs(scratch, "layers",
+                      top("geometry.file = \"layers.geo\"\nmesh.size = 0.1\n") +
+                          "check.uplift.cover = \"clay\"\n" + soil("sand", 1e-4, sand_sizes) +
+                          soil("clay", 1e-5, gravel_sizes) + heads(bottom, above),
+                      two_layers());
+}
+
+/// The cover takes 10 of 11 parts of the difference of head.
+TEST(Checks, UpliftOfACoverIsExact) {
+  const ScratchFolder scratch;
+  const ResultsReader results = layers(scratch, 3.1, 2.0);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  const CheckRow& row = row_of(report, "uplift", "top");
+  EXPECT_NEAR(row.effect, (1.0 + 1.0) * water, 1e-3);
+  EXPECT_NEAR(row.resistance, 0.9 * bulk_weight, 1.0);
+  EXPECT_NEAR(row.place[1], 1.0, 1e-9);
+}
+
+/// The soil that water leaves is the base, the soil that it enters the filter.
+TEST(Checks, FiltersFollowTheFlow) {
+  const ScratchFolder scratch;
+  const ResultsReader rising = layers(scratch, 3.1, 2.0);
+  const CheckReport up = check_run(rising, rising.scene().scene.check);
+  const CheckRow& filter = row_of(up, "filter", "sand -> clay");
+  EXPECT_NEAR(filter.effect, 3.0, 1e-12);
+  EXPECT_NEAR(filter.resistance, 7.0, 1e-12);
+  EXPECT_TRUE(filter.note.starts_with("no erosion")) << filter.note;
+  EXPECT_NEAR(*row_of(up, "filter-retention").factor, 4.0 / 3.0, 1e-12);
+  EXPECT_NEAR(*row_of(up, "filter-drainage").factor, 30.0 / 4.0, 1e-12);
+  const ScratchFolder other;
+  const ResultsReader sinking = layers(other, 1.0, 2.0);
+  const CheckReport down = check_run(sinking, sinking.scene().scene.check);
+  EXPECT_EQ(row_of(down, "filter").where, "clay -> sand");
+}
+
+/// A levee that nothing flows through, 20 m wide, between the toes at x = 0 and 20 on a cover of 2
+/// m and an aquifer of 10 m; the ground goes on for 100 m on both sides.
+std::string levee_ground() {
+  return "Point(1) = {-100, -12, 0}; Point(2) = {120, -12, 0}; Point(3) = {120, -2, 0};\n"
+         "Point(4) = {-100, -2, 0}; Point(5) = {120, 0, 0}; Point(6) = {20, 0, 0};\n"
+         "Point(7) = {0, 0, 0}; Point(8) = {-100, 0, 0};\n"
+         "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+         "Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 7}; Line(8) = {7, 8};\n"
+         "Line(9) = {8, 4};\n"
+         "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+         "Curve Loop(2) = {-3, 5, 6, 7, 8, 9}; Plane Surface(2) = {2};\n"
+         "Physical Surface(\"sand\") = {1}; Physical Surface(\"clay\") = {2};\n"
+         "Physical Curve(\"land\") = {6}; Physical Curve(\"river\") = {8};\n";
+}
+
+std::string levee_scene(const std::string& check) {
+  return top("geometry.file = \"levee.geo\"\nmesh.size = 2.0\n") + check +
+         soil("sand", 1e-4, sand_sizes) + soil("clay", 1e-6) +
+         "[[boundary]]\non = \"river\"\nhead = 3.0\nconcentration = 0.0\n"
+         "[[boundary]]\non = \"land\"\nhead = 0.0\nconcentration = 0.0\n";
+}
+
+TEST(Checks, BlanketTheoryStandsNextToTheComputedHead) {
+  const ScratchFolder scratch;
+  const ResultsReader results = run_programs(
+      scratch, "levee",
+      levee_scene("check.blanket = { aquifer = \"sand\", cover = \"clay\", entry = \"river\", "
+                  "riverside_toe = 0.0, landside_toe = 20.0, riverside = \"closed\", landside = "
+                  "\"closed\" }\n"),
+      levee_ground());
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  const CheckRow& row = row_of(report, "blanket");
+  const double c = std::sqrt(1e-6 / (1e-4 * 10.0 * 2.0));
+  const double side = 1.0 / (c * std::tanh(100.0 * c));
+  const double share = side / (2.0 * side + 20.0);
+  EXPECT_NEAR(row.effect, share * 3.0 / 2.0, 1e-6);
+  EXPECT_NEAR(row.resistance, 0.65 * 1.519649, 1e-9);
+  const std::string before = "blanket theory, ";
+  const double computed = std::stod(row.note.substr(row.note.find(before) + before.size()));
+  EXPECT_NEAR(computed, share * 3.0, 0.03 * share * 3.0) << row.note;
+}
+
+/// The sand has no face at the boundaries: the length must be given.
+TEST(Checks, BackwardErosionNeedsALengthThatTheDrawingLacks) {
+  const ScratchFolder scratch;
+  const std::string check =
+      "check.backward_erosion = { layer = \"sand\", entry = \"river\", exit = "
+      "\"land\", roundness = 60.0";
+  const ResultsReader results =
+      run_programs(scratch, "levee", levee_scene(check + " }\n"), levee_ground());
+  try {
+    check_run(results, results.scene().scene.check);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("check.backward_erosion.length"), std::string::npos)
+        << error.what();
+  }
+  const CheckReport report =
+      check_run(results, check_settings(results, {"check.backward_erosion.length=40.0",
+                                                  "check.backward_erosion.thickness=10.0"}));
+  const CheckRow& row = row_of(report, "backward-erosion");
+  EXPECT_NEAR(row.effect, 3.0, 1e-9);
+  const Gradation sizes(
+      {{0.05, 0.0}, {0.1, 15.0}, {0.3, 50.0}, {1.0, 85.0}, {2.0, 95.0}, {4.0, 100.0}});
+  const PipingLayer layer{.length = 40.0,
+                          .thickness = 10.0,
+                          .d70 = 1e-3 * sizes.size(70.0),
+                          .permeability = 1e-4 * 1e-3 / 9810.0,
+                          .relative_weight = 1.519649,
+                          .uniformity = sizes.size(60.0) / sizes.size(10.0),
+                          .roundness = 60.0};
+  EXPECT_NEAR(row.resistance, critical_head(layer), 1e-9);
+  EXPECT_NE(row.note.find("the tests had"), std::string::npos) << row.note;
+}
+
+/// Sand of 10 m that is open on both sides of a levee 20 m wide.
+TEST(Checks, BackwardErosionMeasuresTheDrawing) {
+  const ScratchFolder scratch;
+  const std::string ground =
+      "Point(1) = {-30, -10, 0}; Point(2) = {50, -10, 0}; Point(3) = {50, 0, 0};\n"
+      "Point(4) = {20, 0, 0}; Point(5) = {0, 0, 0}; Point(6) = {-30, 0, 0};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6};\n"
+      "Line(6) = {6, 1}; Curve Loop(1) = {1, 2, 3, 4, 5, 6}; Plane Surface(1) = {1};\n"
+      "Physical Surface(\"sand\") = {1}; Physical Curve(\"land\") = {3};\n"
+      "Physical Curve(\"river\") = {5};\n";
+  const ResultsReader results = run_programs(
+      scratch, "open",
+      top("geometry.file = \"open.geo\"\nmesh.size = 2.0\n") +
+          "check.backward_erosion = { layer = \"sand\", entry = \"river\", exit = \"land\", d70 = "
+          "0.2 }\n" +
+          soil("sand", 1e-4) +
+          "[[boundary]]\non = \"river\"\nhead = 2.0\nconcentration = 0.0\n"
+          "[[boundary]]\non = \"land\"\nhead = 0.0\nconcentration = 0.0\n",
+      ground);
+  const CheckRow row = row_of(check_run(results, results.scene().scene.check), "backward-erosion");
+  EXPECT_TRUE(row.note.starts_with("L = 20 m, D = 10 m")) << row.note;
+  EXPECT_NEAR(row.effect, 2.0, 1e-9);
+}
+
+/// Under 2.5 m of head the column heaves, which the first page of the report says.
+TEST(Checks, TheReportBeginsWithThem) {
+  const ScratchFolder scratch;
+  const std::string page = report_html({rising_water(scratch, 2.5)});
+  EXPECT_LT(page.find("<table class=\"mechanisms\">"), page.find("id=\"curves\""));
+  EXPECT_NE(page.find("EXCEEDED"), std::string::npos);
+  EXPECT_NE(page.find("The error of the mesh is not known"), std::string::npos);
+  EXPECT_NE(page.find("breach: the slope"), std::string::npos);
+}
+
+TEST(Checks, TheTableHasARowForEachAndTheTextSaysWhatIsMissing) {
+  const ScratchFolder scratch;
+  const ResultsReader results = layers(scratch, 3.1, 2.0);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  const std::string table = check_table(report, 2);
+  EXPECT_TRUE(
+      table.starts_with("mechanism,where,clause,t,effect,resistance,unit,factor,x,y,note\n"));
+  EXPECT_EQ(std::ranges::count(table, '\n'), static_cast<long>(report.rows.size()) + 1);
+  const std::string text = check_text(report);
+  EXPECT_NE(text.find("suffusion (no soil erodes)"), std::string::npos) << text;
+  EXPECT_NE(text.find("backward erosion (key check.backward_erosion.layer)"), std::string::npos);
+  EXPECT_EQ(text.find("uplift of a cover (key"), std::string::npos);
+}
+
+}  // namespace checks_test
+}  // namespace suffuse
