@@ -21,7 +21,7 @@ SAMPLED = ["key", "distribution", "mean", "deviation", "min", "max"]
 KEY = re.compile(r'[A-Za-z_"][^=\n]*')
 
 
-def lines_of(path):
+def lines_of(path, expected="a line of keys and a line for each run"):
     """Pairs of line number and cells."""
     try:
         with open(path, encoding="utf-8-sig", newline="") as file:
@@ -33,7 +33,7 @@ def lines_of(path):
         raise InputError([f"{path}: is no table: {error}"]) from None
     rows = [(line, row) for line, row in rows if any(row) and not row[0].startswith("#")]
     if not rows:
-        raise InputError([problem(path, "", "no line", "a line of keys and a line for each run")])
+        raise InputError([problem(path, "", "no line", expected)])
     return rows
 
 

@@ -1,0 +1,203 @@
+"""Least squares over runs: where the misfit is smallest, and how well each key is known there.
+
+`evaluate(points, purpose)` takes a list of arrays x (keys.py) and gives a list of residuals, (computed - measured) over
+its scale, with None for a run that failed. The points of one call may run at the same time.
+"""
+
+import dataclasses
+import math
+
+import numpy
+from scipy.optimize import least_squares
+from scipy.special import ndtri, stdtrit
+
+# Step of x for derivatives: it changes outputs by more than the noise that the tolerance of time steps leaves in them.
+STEP = 1e-2
+MOST_STEPS = 40
+DECADES = (-2, -1, 1, 2)
+# Where a key without a logarithm is tried again, as shares of its range.
+SHARES = (0.1, 0.35, 0.65, 0.9)
+# A fit whose sum of squares is above this share of that of a constant explains too little: other starts are tried.
+POOR = 0.25
+# Correlations from which on a key cannot be told apart: with one other key, and with all others together.
+WITH_ONE, WITH_ALL = 0.99, 0.9999
+# Singular values below this share of the largest are 0.
+SINGULAR = 1e-6
+NEAR_BOUND = 0.1 * STEP
+
+
+# The search ends where a step would move the result by less than this share of its standard errors.
+CLOSE = 1e-3
+# Root mean square of the residuals below which points have no noise.
+EXACT = 1e-6
+
+
+class Converged(Exception):
+    """Arguments: x, and the residuals there."""
+
+
+class NoRun(Exception):
+    """No run from which a search could start."""
+
+
+@dataclasses.dataclass
+class Search:
+    x: numpy.ndarray
+    residuals: numpy.ndarray
+    converged: bool
+    starts: int  # how many starts were searched from
+
+
+def sum_of_squares(residuals):
+    return math.inf if residuals is None else float(residuals @ residuals)
+
+
+def is_close(matrix, residuals):
+    """The criterion of Bates and Watts (1981): the part of the residuals that keys can lower, over the part that they cannot."""
+    count, keys = matrix.shape
+    if residuals @ residuals < EXACT**2 * count:
+        return True
+    if count <= keys:
+        return False
+    directions, values, _ = numpy.linalg.svd(matrix, full_matrices=False)
+    lowered = directions[:, values > SINGULAR * max(values[0], 1e-300)].T @ residuals
+    rest = max(residuals @ residuals - lowered @ lowered, 0.0)
+    return (lowered @ lowered) / keys < CLOSE**2 * rest / (count - keys)
+
+
+def derivatives(evaluate, low, high, x):
+    """The matrix of derivatives, and the numbers of keys whose runs failed on both sides: their column is 0.
+
+    Differences are central, so that the last steps of the search lower the misfit by what they promise. They are
+    one-sided at a bound, and where one of the two runs failed.
+    """
+    sides = [(j, sign) for j in range(len(x)) for sign in (1, -1) if low[j] <= x[j] + sign * STEP <= high[j]]
+    points = [numpy.array(x)]
+    for j, sign in sides:
+        points.append(numpy.array(x))
+        points[-1][j] += sign * STEP
+    base, *values = evaluate(points, "derivative")
+    found = {side: value for side, value in zip(sides, values) if value is not None}
+    columns = numpy.zeros((len(base), len(x)))
+    failed = []
+    for j in range(len(x)):
+        width = STEP * sum(side in found for side in ((j, 1), (j, -1)))
+        if width:
+            columns[:, j] = (found.get((j, 1), base) - found.get((j, -1), base)) / width
+        else:
+            failed.append(j)
+    return columns, failed
+
+
+def other_starts(logarithmic, low, high):
+    """Starts in which one key is moved: by decades, or through its range."""
+    starts = []
+    for j, is_logarithmic in enumerate(logarithmic):
+        if is_logarithmic:
+            moves = [decades * math.log(10.0) for decades in DECADES]
+        elif math.isfinite(high[j] - low[j]):
+            moves = [low[j] + share * (high[j] - low[j]) for share in SHARES]
+        else:
+            moves = [-2.0, -0.5, 0.5, 2.0]
+        for move in moves:
+            if low[j] <= move <= high[j]:
+                start = numpy.zeros(len(logarithmic))
+                start[j] = move
+                starts.append(start)
+    return starts
+
+
+def search(evaluate, logarithmic, low, high, of_constant):
+    """`of_constant`: the sum of squares of the best constants. Throws NoRun."""
+
+    def fun(x):
+        (residuals,) = evaluate([x], "step")
+        # SciPy takes a shorter step where residuals are not finite.
+        return numpy.full(count, numpy.inf) if residuals is None else residuals
+
+    def jac(x):
+        matrix, (residuals,) = derivatives(evaluate, low, high, x)[0], evaluate([x], "step")
+        if is_close(matrix, residuals):
+            raise Converged(x, residuals)
+        return matrix
+
+    def minimise(start):
+        try:
+            found = least_squares(fun, start, jac, bounds=(low, high), xtol=1e-5, ftol=1e-5, gtol=1e-10, max_nfev=MOST_STEPS)
+            return Search(found.x, found.fun, found.status > 0, 1)
+        except Converged as end:
+            return Search(*end.args, True, 1)
+
+    (residuals,) = evaluate([numpy.zeros(len(low))], "start")
+    best = None
+    if residuals is not None:
+        count = len(residuals)
+        best = minimise(numpy.zeros(len(low)))
+    if best is None or sum_of_squares(best.residuals) > max(POOR * of_constant, 1e-12):
+        starts = other_starts(logarithmic, low, high)
+        trials = sorted(zip(map(sum_of_squares, evaluate(starts, "other start")), range(len(starts))))
+        if not trials or math.isinf(trials[0][0]):
+            if best is None:
+                raise NoRun
+            return best
+        if best is None or trials[0][0] < sum_of_squares(best.residuals):
+            (residuals,) = evaluate([starts[trials[0][1]]], "other start")
+            count = len(residuals)
+            other = minimise(starts[trials[0][1]])
+            if best is None or sum_of_squares(other.residuals) < sum_of_squares(best.residuals):
+                best = other
+            best.starts = 2
+    return best
+
+
+@dataclasses.dataclass
+class Known:
+    """How well the keys are known. `said[j]` is "known", or says why `error[j]` is NaN."""
+
+    said: list
+    error: numpy.ndarray  # standard error of x
+    quantile: float  # half of the 95 % interval over the standard error
+    correlations: numpy.ndarray  # NaN for keys that are not in them
+    with_whom: list  # of a key that cannot be told apart: the number of the other key, None if it takes several
+    misfit: float  # root mean square of residuals over degrees of freedom; 1 is expected with known deviations
+
+
+def uncertainty(jacobian, residuals, negligible, has_deviations, failed=(), at_bound=()):
+    """`negligible`: changes of residuals that are round-off. Keys at a bound count as given."""
+    count, keys = jacobian.shape
+    said = ["known"] * keys
+    for j in range(keys):
+        if j in failed:
+            said[j] = "runs failed"
+        elif numpy.all(numpy.abs(jacobian[:, j]) * STEP <= negligible):
+            said[j] = "no response"
+        elif j in at_bound:
+            said[j] = "at a bound"
+    used = [j for j in range(keys) if said[j] == "known"]
+    error, correlations, with_whom = numpy.full(keys, numpy.nan), numpy.full((keys, keys), numpy.nan), [None] * keys
+    freedom = count - len(used)
+    misfit = math.sqrt(sum_of_squares(residuals) / freedom) if freedom > 0 else math.nan
+    quantile = float(ndtri(0.975) if has_deviations else stdtrit(freedom, 0.975) if freedom > 0 else math.nan)
+    if used:
+        lengths = numpy.linalg.norm(jacobian[:, used], axis=0)
+        _, values, directions = numpy.linalg.svd(jacobian[:, used] / lengths, full_matrices=False)
+        if len(values) < len(used):  # fewer points than keys
+            values, directions = numpy.zeros(len(used)), numpy.eye(len(used))
+        # A floor for singular values gives keys that only act together a correlation of 1.
+        values = numpy.maximum(values, SINGULAR * max(values[0], 1e-300))
+        covariance = (directions.T / values**2) @ directions
+        deviations = numpy.sqrt(numpy.diag(covariance))
+        inner = covariance / numpy.outer(deviations, deviations)
+        correlations[numpy.ix_(used, used)] = inner
+        for k, j in enumerate(used):
+            # The columns have length 1, so the diagonal is what the other keys inflate the variance by.
+            with_all = math.sqrt(max(0.0, 1.0 - 1.0 / covariance[k, k]))
+            with_one, other = max(((abs(inner[k, other]), used[other]) for other in range(len(used)) if other != k), default=(0.0, None))
+            if with_one > WITH_ONE or with_all > WITH_ALL:
+                said[j] = "not told apart"
+                with_whom[j] = other if with_one > WITH_ONE else None
+            elif has_deviations or freedom > 0:
+                error[j] = deviations[k] / lengths[k] * (1.0 if has_deviations else misfit)
+            else:
+                said[j] = "as many keys as points"
+    return Known(said, error, quantile, correlations, with_whom, misfit)
