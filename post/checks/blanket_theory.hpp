@@ -25,8 +25,8 @@ struct BlanketSection {
   double base = 0.0;                  ///< L2, from toe to toe, m
   double aquifer_thickness = 0.0;     ///< d, m
   double aquifer_conductivity = 0.0;  ///< along the aquifer, m/s
-  BlanketSide riverside;
-  BlanketSide landside;
+  BlanketSide riverside{};
+  BlanketSide landside{};
 };
 
 /// Length of an aquifer below a tight cover that resists as this side does, x1 or x3, m: 1/c of a
