@@ -4,10 +4,12 @@ Either columns are keys and rows are runs; an empty cell leaves the key as the s
 
     runs,100
     seed,1
+    sampling,latin-hypercube
     key,distribution,mean,deviation,min,max
     soil.foundation.porosity,normal,0.3,0.02,0.2,0.4
 
-Empty lines, and lines that start with #, are left out.
+The line `sampling` may be left out: then runs are independent of each other. Empty lines, and lines that start with #,
+are left out.
 """
 
 import csv
@@ -17,6 +19,8 @@ from problems import InputError, problem
 from sampling import PARAMETERS, Distribution
 
 MOST_RUNS = 9999
+SETTINGS = ["runs", "seed", "sampling"]
+SAMPLINGS = ["independent", "latin-hypercube"]
 SAMPLED = ["key", "distribution", "mean", "deviation", "min", "max"]
 KEY = re.compile(r'[A-Za-z_"][^=\n]*')
 
@@ -80,6 +84,17 @@ def read_setting(path, name, least, rows):
     raise InputError([problem(path, name, "no such line", f'"{name},NUMBER" above the line of columns')])
 
 
+def read_sampling(path, rows):
+    for line, cells in rows:
+        if cells[0] == "sampling":
+            found = ",".join(cells[1:]).rstrip(",")
+            if found in SAMPLINGS:
+                return found
+            raise InputError([problem(f"{path}:{line}", "sampling", f'"{found}"',
+                                      '"independent" or "latin-hypercube"', SAMPLINGS)])
+    return SAMPLINGS[0]
+
+
 def read_distribution(path, line, cells):
     key, name = cells[0], cells[1]
     if name not in PARAMETERS:
@@ -104,7 +119,10 @@ def read_distribution(path, line, cells):
 def sampled_runs(path, rows, start):
     count = read_setting(path, "runs", 1, rows[:start])
     seed = read_setting(path, "seed", 0, rows[:start])
-    problems = check_keys(path, [(line, cells[0]) for line, cells in rows[start + 1 :]])
+    latin_hypercube = read_sampling(path, rows[:start]) == "latin-hypercube"
+    problems = [problem(f"{path}:{line}", "", f'"{cells[0]}"', "runs, seed or sampling", SETTINGS)
+                for line, cells in rows[:start] if cells[0] not in SETTINGS]
+    problems += check_keys(path, [(line, cells[0]) for line, cells in rows[start + 1 :]])
     if len(rows) == start + 1:
         problems.append(problem(path, "", "no distribution", "a row for each key"))
     columns = []
@@ -119,7 +137,7 @@ def sampled_runs(path, rows, start):
         raise InputError(problems)
     if count > MOST_RUNS:
         return [key for key, _ in columns], [[]] * count
-    samples = [distribution.sample(key, seed, count) for key, distribution in columns]
+    samples = [distribution.sample(key, seed, count, latin_hypercube) for key, distribution in columns]
     return [key for key, _ in columns], [list(cells) for cells in zip(*samples)]
 
 
@@ -127,7 +145,7 @@ def read_runs(path):
     """Keys, and a list of their values for each run. Throws InputError."""
     rows = lines_of(path)
     start = next((i for i, (_, cells) in enumerate(rows) if cells[0] == "key"), None)
-    if start is None and {cells[0] for _, cells in rows} & {"runs", "seed"}:
+    if start is None and {cells[0] for _, cells in rows} & set(SETTINGS):
         raise InputError([problem(path, "", "no line of columns", ",".join(SAMPLED))])
     if start is not None and rows[start][1] != SAMPLED:
         raise InputError([problem(f"{path}:{rows[start][0]}", "", ",".join(rows[start][1]), ",".join(SAMPLED))])

@@ -4,6 +4,9 @@ Python's documentation promises the sequence of random.Random(text).random(). Ea
 distribution function at one of these numbers, and is rounded to ten digits, which hides differences between
 mathematical libraries. Each key has a sequence of its own: further keys change no other column, and further runs keep
 the ones before.
+
+In a Latin hypercube the probability of each key is divided into as many equal strata as there are runs, and each
+stratum has one run. Another number of runs has other strata, so further runs do not keep the ones before.
 """
 
 import math
@@ -66,9 +69,18 @@ class Distribution:
         value = self.normal.inv_cdf(low + share * (self._share(self.high) - low))
         return min(max(math.exp(value) if self.name == "lognormal" else value, self.low), self.high)
 
-    def sample(self, key, seed, count):
+    def sample(self, key, seed, count, latin_hypercube=False):
         """`count` values of a key, as texts."""
         generator = random.Random(f"{seed} {key}")
         # random() may be 0, where the inverse does not exist.
-        shares = (generator.random() or 2.0**-54 for _ in range(count))
+        shares = [generator.random() or 2.0**-54 for _ in range(count)]
+        if latin_hypercube:
+            shares = [(stratum + share) / count for stratum, share in zip(strata(key, seed, count), shares)]
         return [f"{self.quantile(share):.{DIGITS}g}" for share in shares]
+
+
+def strata(key, seed, count):
+    """The stratum of each run: a permutation, from random() alone, as Python does not promise what shuffle() gives."""
+    generator = random.Random(f"{seed} {key} strata")
+    order = [generator.random() for _ in range(count)]
+    return sorted(range(count), key=order.__getitem__)

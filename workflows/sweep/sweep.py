@@ -5,7 +5,8 @@
     sweep.py conclude FOLDER --programs BIN                writes FOLDER/sweep.csv, cost.csv and figures;
                                                            without figures if --no-figures is given
 
-Exit codes: 2 for wrong input; 1 of `conclude` if a run did not end well.
+With --factor STATES, where STATES says of which states the factor of safety is wanted (assessment.py), sweep.csv has how
+safe each run is. Exit codes: 2 for wrong input; 1 of `conclude` if a run did not end well.
 """
 
 import argparse
@@ -19,7 +20,8 @@ import re
 import subprocess
 import sys
 
-from inputs import inputs_of, write_changed
+from assessment import STATES, columns_of, is_assessed
+from inputs import content, inputs_of, write_changed
 from problems import InputError, problem
 from runs import read_runs
 
@@ -63,6 +65,11 @@ def prepare(options):
         changes = [f"{key}={value}" for key, value in zip(keys, run) if value]
         (folder / name).mkdir(exist_ok=True)
         write_changed(folder / name / f"{name}.inputs", inputs_of(scene, programs, changes))
+        if options.factor and not (folder / name / f"{name}.status").is_file():
+            (folder / name / f"{name}.assessed").unlink(missing_ok=True)
+    if options.factor:
+        # Its date says since when runs are looked at in this way.
+        write_changed(folder / "assess.inputs", f"factor {options.factor}\n{content(programs / 'suffuse-post')}\n")
     # Rows that were removed from the table keep their results, but are not made again.
     for inputs in folder.glob("[0-9]*/*.inputs"):
         if inputs.stem not in names:
@@ -108,7 +115,7 @@ def run_tables(folder, names, programs):
     return columns, found
 
 
-def write_tables(folder, programs):
+def write_tables(folder, programs, factor):
     """Returns the keys, and the rows of sweep.csv as dictionaries."""
     header, *runs = read_csv(folder / "runs.csv")
     keys = header[1:]
@@ -121,6 +128,10 @@ def write_tables(folder, programs):
         word, message = ends[name]
         row = values.get(name, {}) | dict(zip(header, [name, *cells])) | {"status": word, "message": message}
         rows.append(row)
+        if factor:
+            safety = columns_of(folder, name)
+            row |= safety
+            columns += [column for column in safety if column not in columns]
         costs.append([name, *costs_of(folder / name / f"{name}.results" / "run.json" if word in TABULATED else None)])
     order = [*header, "status", "message", *columns]
     write_changed(folder / "sweep.csv", csv_text([order, *([row.get(column, "") for column in order] for row in rows)]))
@@ -175,9 +186,12 @@ def draw(folder, keys, rows, programs):
 def conclude(options):
     folder = pathlib.Path(options.folder)
     programs = pathlib.Path(options.programs).absolute()
-    keys, rows = write_tables(folder, programs)
+    keys, rows = write_tables(folder, programs, options.factor)
     messages = draw(folder, keys, rows, programs) if options.figures else []
     bad = [row for row in rows if row["status"] != "done"]
+    if options.factor:
+        bad += [row | {"status": "not assessed", "message": "call make again"} for row in rows
+                if row["status"] == "done" and not is_assessed(folder, row["run"])]
     messages += [f"{row['run']} {row['status']}: {row['message'] or 'not made'}" for row in bad[:10]]
     if len(bad) > 10:
         messages.append(f"... and {len(bad) - 10} more: see the columns status and message")
@@ -196,6 +210,7 @@ def main():
     for command in [command, commands.add_parser("conclude")]:
         command.add_argument("folder", metavar="FOLDER")
         command.add_argument("--programs", required=True, metavar="FOLDER")
+        command.add_argument("--factor", choices=STATES)
     commands.choices["conclude"].add_argument("--no-figures", dest="figures", action="store_false")
     options = parser.parse_args()
     try:

@@ -74,6 +74,22 @@ def check_seeds():
         expect("another seed or key has other values", True, other != pinned)
 
 
+def check_latin_hypercube():
+    uniform = Distribution("uniform", {"min": 0.0, "max": 1.0})
+    for count in (1, 7, 100):
+        values = [float(text) for text in uniform.sample("soil.a.porosity", 1, count, True)]
+        expect(f"each of {count} strata has one run", list(range(count)), sorted(int(value * count) for value in values))
+    cut = Distribution("lognormal", {"mean": 2.0, "deviation": 1.0, "min": 1.0, "max": 3.0})
+    edges = [cut.quantile(k / 50) for k in range(1, 50)]
+    values = sorted(float(text) for text in cut.sample("a", 3, 50, True))
+    expect("strata of a distribution that is cut off", list(range(50)), [sum(edge <= value for edge in edges) for value in values])
+    first, second = (uniform.sample(key, 1, 100, True) for key in ("a", "b"))
+    ranks = [[sorted(values).index(value) for value in values] for values in (first, second)]
+    expect("keys are in orders of their own", True, abs(statistics.correlation(*ranks)) < 0.3)
+    expect("seed 1, latin hypercube", PINNED_LATIN_HYPERCUBE, uniform.sample("a", 1, 3, True))
+
+
+PINNED_LATIN_HYPERCUBE = ["0.6128736991", "0.7781635443", "0.2918221388"]
 PINNED_LOGNORMAL = ["0.007637445206", "0.0253481138", "0.03726107624"]
 PINNED_NORMAL = ["0.2829463443", "0.2874452831", "0.3041719825"]
 HEADER = "key,distribution,mean,deviation,min,max"
@@ -91,6 +107,11 @@ WRONG = [
     ("a,b\n1\n1,2,3\n", "TABLE:2: got 1 cells; expected 2\nTABLE:3: got 3 cells; expected 2"),
     ('a\n"1\n2"\n', "TABLE:3: a: got a value of several lines; expected one of one line"),
     ("a\n" + "1\n" * 10000, "TABLE: got 10000 runs; expected at most 9999"),
+    ("sampling,latin-hypercube\n", f"TABLE: got no line of columns; expected {HEADER}"),
+    (SAMPLED.replace("seed,1\n", "seed,1\nsampling,latin\n") + "a,uniform,,,1,2\n",
+     'TABLE:3: sampling: got "latin"; expected "independent" or "latin-hypercube"'),
+    (SAMPLED.replace("seed,1\n", "seed,1\nsampeling,latin-hypercube\n") + "a,uniform,,,1,2\n",
+     'TABLE:3: got "sampeling"; expected runs, seed or sampling; did you mean sampling?'),
     ("runs,2\nseed,1\n", f"TABLE: got no line of columns; expected {HEADER}"),
     ("runs,2\nseed,1\nkey,distribution\n", f"TABLE:3: got key,distribution; expected {HEADER}"),
     (SAMPLED, "TABLE: got no distribution; expected a row for each key"),
@@ -131,6 +152,9 @@ def check_tables():
         expect("comments, empty cells, a byte order mark", (["a", "b"], [["1", ""], ["[[0, 1]]", "x"]]),
                said_of('\ufeff# of keys\na, b\n1,\n\n"[[0, 1]]",x\n'))
         keys, runs = said_of(SAMPLED + "a,uniform,,,1,2\nb,normal,0,1,,\n")
+        latin = Distribution("uniform", {"min": 1.0, "max": 2.0}).sample("a", 1, 2, True)
+        expect("sampled as a latin hypercube", (["a"], [[text] for text in latin]),
+               said_of(SAMPLED.replace("seed,1\n", "seed,1\nsampling,latin-hypercube\n") + "a,uniform,,,1,2\n"))
         expect("sampled: keys", ["a", "b"], keys)
         expect("sampled: runs", Distribution("uniform", {"min": 1.0, "max": 2.0}).sample("a", 1, 2), [run[0] for run in runs])
 
@@ -146,5 +170,6 @@ if __name__ == "__main__":
     for case in CASES:
         check_distribution(*case)
     check_seeds()
+    check_latin_hypercube()
     check_tables()
     finish("distributions, seeds and tables of a sweep")

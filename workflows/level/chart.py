@@ -1,0 +1,113 @@
+"""Curves over the level, as SVG."""
+
+import math
+
+LEFT, TOP, WIDTH, HEIGHT, BELOW, LEGEND = 74, 24, 460, 340, 62, 410
+# Colour, dash and marker of a curve: told apart in grey, too.
+CURVES = (
+    ("#000000", "none", "circle"),
+    ("#0062bd", "8 4", "square"),
+    ("#b5470b", "2 3", "diamond"),
+    ("#009150", "10 3 2 3", "triangle"),
+    ("#8a2be2", "5 5", "ring"),
+    ("#7a7a7a", "none", "cross"),
+    ("#c2185b", "12 6", "box"),
+    ("#005f73", "2 6", "circle"),
+    ("#6b4f00", "6 2", "square"),
+)
+MARKERS = {
+    "circle": '<circle r="4.5" fill="{0}"/>',
+    "ring": '<circle r="4.5" fill="white" stroke="{0}" stroke-width="1.5"/>',
+    "square": '<rect x="-4" y="-4" width="8" height="8" fill="{0}"/>',
+    "box": '<rect x="-4" y="-4" width="8" height="8" fill="white" stroke="{0}" stroke-width="1.5"/>',
+    "diamond": '<path d="M0 -5.5 L5.5 0 L0 5.5 L-5.5 0 z" fill="{0}"/>',
+    "triangle": '<path d="M0 -5.5 L5 4 L-5 4 z" fill="{0}"/>',
+    "cross": '<path d="M-4 -4 L4 4 M-4 4 L4 -4" fill="none" stroke="{0}" stroke-width="2"/>',
+}
+
+
+def ticks(low, high, most=8):
+    """Round numbers between two ends."""
+    rough = (high - low) / most
+    power = 10.0 ** math.floor(math.log10(rough))
+    step = next(factor * power for factor in (1, 2, 5, 10) if factor * power >= rough * (1.0 - 1e-9))
+    first = math.ceil(low / step - 1e-9)
+    return [k * step for k in range(first, math.floor(high / step + 1e-9) + 1)]
+
+
+class Panel:
+    """A chart with the ends of both axes."""
+
+    def __init__(self, x, y, x_label, y_label):
+        self.x, self.y, self.x_label, self.y_label = x, y, x_label, y_label
+
+    def at(self, x, y):
+        share_x = (x - self.x[0]) / (self.x[1] - self.x[0])
+        share_y = (y - self.y[0]) / (self.y[1] - self.y[0])
+        return LEFT + WIDTH * share_x, TOP + HEIGHT * (1.0 - share_y)
+
+    def axes(self):
+        right, bottom = LEFT + WIDTH, TOP + HEIGHT
+        yield f'<clipPath id="inside"><rect x="{LEFT - 6}" y="{TOP}" width="{WIDTH + 12}" height="{HEIGHT + 6}"/></clipPath>'
+        for value in ticks(*self.x):
+            x, _ = self.at(value, self.y[0])
+            yield f'<line x1="{x:.1f}" y1="{TOP}" x2="{x:.1f}" y2="{bottom}" stroke="#e4e4e4"/>'
+            yield f'<text x="{x:.1f}" y="{bottom + 20}" text-anchor="middle">{value:.10g}</text>'
+        for value in ticks(*self.y):
+            _, y = self.at(self.x[0], value)
+            yield f'<line x1="{LEFT}" y1="{y:.1f}" x2="{right}" y2="{y:.1f}" stroke="#e4e4e4"/>'
+            yield f'<text x="{LEFT - 8}" y="{y + 5:.1f}" text-anchor="end">{value:.10g}</text>'
+        yield f'<path d="M{LEFT} {TOP} V{bottom} H{right}" fill="none" stroke="#222"/>'
+        yield f'<text x="{LEFT + WIDTH / 2}" y="{bottom + 46}" text-anchor="middle">{self.x_label}</text>'
+        x, y = LEFT - 50, TOP + HEIGHT / 2
+        yield f'<text transform="translate({x} {y}) rotate(-90)" text-anchor="middle">{self.y_label}</text>'
+
+    def rule(self, y):
+        """A line across at a value."""
+        _, place = self.at(self.x[0], y)
+        yield f'<line x1="{LEFT}" y1="{place:.1f}" x2="{LEFT + WIDTH}" y2="{place:.1f}" stroke="#222" stroke-width="1.5"/>'
+
+    def curve(self, points, style):
+        color, dash, kind = style
+        places = [self.at(*point) for point in points]
+        path = " L".join(f"{x:.1f} {y:.1f}" for x, y in places)
+        yield f'<g clip-path="url(#inside)"><path d="M{path}" fill="none" stroke="{color}" stroke-width="1.8" stroke-dasharray="{dash}"/>'
+        for x, y in places:
+            yield mark(kind, color, x, y)
+        yield "</g>"
+
+    def drop(self, x, y, style):
+        """A line from a point down to the axis."""
+        left, top = self.at(x, y)
+        yield f'<line x1="{left:.1f}" y1="{top:.1f}" x2="{left:.1f}" y2="{TOP + HEIGHT}" stroke="{style[0]}" stroke-dasharray="1 3"/>'
+
+    def length(self, pixels):
+        """A length on the axis of x."""
+        return pixels * (self.x[1] - self.x[0]) / WIDTH
+
+    def bar(self, x, low, high, style):
+        """An interval of y."""
+        left, top = self.at(x, high)
+        bottom = self.at(x, low)[1]
+        yield f'<path d="M{left - 4:.1f} {top:.1f} h8 m-4 0 V{bottom:.1f} m-4 0 h8" fill="none" stroke="{style[0]}" stroke-width="1.2"/>'
+
+    def legend(self, entries):
+        """Lines of words and style, to the right of the chart."""
+        left = LEFT + WIDTH + 24
+        for number, (words, (color, dash, kind)) in enumerate(entries):
+            line = TOP + 14 + 26 * number
+            yield f'<path d="M{left} {line} h44" stroke="{color}" stroke-width="1.8" stroke-dasharray="{dash}"/>'
+            yield mark(kind, color, left + 22, line)
+            yield f'<text x="{left + 54}" y="{line + 5}">{words}</text>'
+
+
+def mark(kind, color, x, y):
+    return f'<g transform="translate({x:.1f} {y:.1f})">{MARKERS[kind].format(color)}</g>'
+
+
+def document(title, parts):
+    width, height = LEFT + WIDTH + LEGEND, TOP + HEIGHT + BELOW
+    return "\n".join([
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
+        'font-family="DejaVu Sans, Arial, sans-serif" font-size="14" role="img" aria-labelledby="title">',
+        f'<title id="title">{title}</title>', f'<rect width="{width}" height="{height}" fill="white"/>', *parts, "</svg>", ""])

@@ -1,0 +1,266 @@
+#!/usr/bin/python3
+"""At which level does each mechanism begin? `make -C workflows critical-level` calls this, and sweep.sh makes the runs.
+
+    critical_level.py prepare SCENE FOLDER      writes FOLDER/table.csv, the sweep's table; prints of which states the
+                                                factor of safety is
+    critical_level.py conclude SCENE FOLDER     writes levels.csv, critical.csv, report.md, levels.svg
+
+`prepare` follows the search from its start, as far as the runs so far answer it, and adds the levels that it needs next. So
+a study that was stopped goes on, and one that is complete adds nothing. BOUNDARY, FROM, TO, SCAN, TOLERANCE_LEVEL, STEADY,
+SET and FACTOR come from the environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
+"""
+
+import dataclasses
+import math
+import sys
+
+from levels import (InputError, call, named_failures, number_in, outcomes, problem, rounded, rows_of_sweep,
+                    write_changed, write_table)
+from chart import CURVES, Panel, document
+from assessment import SLOPE, cell, in_order, is_assessed, messages_of, spoken
+from sweep import csv_text
+
+SCAN = 5
+TOLERANCE = 0.01  # of TO - FROM
+# Half the distance of the two levels around an interpolated one, in tolerances: if both answer as expected, the search ends.
+BESIDE = 0.45
+# Every third round halves the brackets, as interpolation may approach a crossing from one side only.
+HALVING = 3
+HIGHEST_SHOWN = 4.0
+
+
+@dataclasses.dataclass
+class Search:
+    """Between which levels a mechanism begins. `kind`: "between", "below", "above", "absent" or "unknown"."""
+
+    kind: str
+    holds: float = None
+    fails: float = None
+
+
+def asked():
+    low, high = number_in("FROM"), number_in("TO")
+    if not low < high:
+        raise InputError([problem("FROM", "", f"{low:g}, and TO={high:g}", "a level below TO")])
+    scan = number_in("SCAN", SCAN)
+    if scan != int(scan) or not 2 <= scan <= 1000:
+        raise InputError([problem("SCAN", "", f"{scan:g}", "a whole number of levels from 2 to 1000")])
+    tolerance = number_in("TOLERANCE_LEVEL", TOLERANCE * (high - low))
+    if not 1e-6 * (high - low) <= tolerance <= high - low:
+        raise InputError([problem("TOLERANCE_LEVEL", "", f"{tolerance:g}", f"a length from {1e-6 * (high - low):g} to {high - low:g} m")])
+    scan = int(scan)
+    return [rounded(low + (high - low) * k / (scan - 1)) for k in range(scan)], tolerance
+
+
+def search(mechanism, known, ends):
+    """`known`: level -> outcomes of its run. `ends`: FROM and TO."""
+    points = sorted((level, found[mechanism]) for level, found in known.items() if mechanism in found)
+    if all(not outcome.fails and outcome.factor is None for _, outcome in points):
+        return Search("absent" if points[-1][0] == ends[1] else "unknown", holds=points[-1][0])
+    fails = next((level for level, outcome in points if outcome.fails), None)
+    holds = max((level for level, outcome in points if fails is None or level < fails), default=None)
+    if fails is None:
+        return Search("above" if holds == ends[1] else "unknown", holds=holds)
+    if holds is None:
+        return Search("below" if fails == ends[0] else "unknown", fails=fails)
+    return Search("between", holds, fails)
+
+
+def crossing(mechanism, known, found):
+    """Where effect over resistance reaches 1, by a straight line; the middle where soil fails without a factor."""
+    low, high = (known[level][mechanism].utilisation for level in (found.holds, found.fails))
+    if high is None or math.isinf(high) or not low < high:
+        return 0.5 * (found.holds + found.fails)
+    return found.holds + (found.fails - found.holds) * (1.0 - low) / (high - low)
+
+
+def next_levels(mechanism, known, ends, tolerance, halve):
+    """Levels that narrow the bracket of a mechanism; none if it is narrow, or if runs there have no answer."""
+    found = search(mechanism, known, ends)
+    if found.kind != "between" or found.fails - found.holds <= tolerance * (1.0 + 1e-9):
+        return []
+    at = crossing(mechanism, known, found)
+    pair = [rounded(at - BESIDE * tolerance), rounded(at + BESIDE * tolerance)]
+    middle = [rounded(0.5 * (found.holds + found.fails))]
+    for levels in ([] if halve else [pair]) + [middle]:
+        levels = [level for level in levels if found.holds < level < found.fails and level not in known]
+        if levels:
+            return levels
+    return []
+
+
+def replay(coarse, known, tolerance):
+    """All levels of the search in the order in which they are wanted, as far as `known` answers it."""
+    levels, ends, turn = list(coarse), (coarse[0], coarse[-1]), 1
+    while all(level in known for level in levels):
+        so_far = {level: known[level] for level in levels}
+        mechanisms = {mechanism for found in so_far.values() for mechanism in found}
+        wanted = {level for mechanism in mechanisms
+                  for level in next_levels(mechanism, so_far, ends, tolerance, turn % HALVING == 0)}
+        if not wanted:
+            break
+        levels += sorted(wanted)
+        turn += 1
+    return levels
+
+
+# --- Runs ----------------------------------------------------------------------------------------------------
+
+
+def table_of(study, levels):
+    changes = study.changes()
+    return [[study.key, *changes], *([study.cell(level), *changes.values()] for level in levels)]
+
+
+def known_of(study, folder):
+    """Level -> row of the sweep, of the runs that have ended."""
+    changes = study.changes()
+    ended = [row for row in rows_of_sweep(folder) if row["status"] != "unfinished" and is_assessed(folder / "runs", row["run"])
+             and study.key in row and changes.items() <= row.items()]
+    known = {study.level_of(row[study.key]): row for row in ended}
+    return {level: row for level, row in known.items() if row[study.key] == study.cell(level)}
+
+
+def prepare(study, folder):
+    coarse, tolerance = asked()
+    study.check_levels("FROM", coarse)
+    known = outcomes(study, folder, known_of(study, folder))
+    write_table(study, folder, table_of(study, replay(coarse, known, tolerance)))
+    print(study.states)
+
+
+# --- Tables and report ---------------------------------------------------------------------------------------
+
+
+def metres(level):
+    return f"{level:.4g} m"
+
+
+def rank(outcome):
+    """Sorts by the factor: soil that fails without one first, mechanisms that do not act last."""
+    return (-math.inf if outcome.fails else math.inf) if outcome.factor is None else outcome.factor
+
+
+def governing(found):
+    """The mechanism with the least factor at a level, or nothing where none acts."""
+    acting = [name for name in in_order(found) if found[name].fails or found[name].factor is not None]
+    return min(acting, key=lambda name: rank(found[name]), default="")
+
+
+def row_of(mechanism, known, found):
+    """The row of critical.csv, and a sentence."""
+    row = dict.fromkeys(["level", "holds_at", "fails_at", "where", "clause"], "")
+    begun = known[found.fails][mechanism] if found.fails is not None else None
+    if begun:
+        row |= {"fails_at": cell(found.fails), "where": begun.place, "clause": begun.clause}
+    if found.holds is not None:
+        row["holds_at"] = cell(found.holds)
+    factor_at = lambda level: f"its factor is {known[level][mechanism].factor:.3g} there"
+    name = spoken(mechanism)
+    if found.kind == "between":
+        level = crossing(mechanism, known, found)
+        row["level"] = cell(rounded(level))
+        place = f", {begun.place}" if begun.place else ""
+        said = f"{name} begins at {metres(level)}{place} (holds at {metres(found.holds)}, fails at {metres(found.fails)})"
+        if begun.factor is None:
+            said += f"; it fails without a factor: {begun.said}"
+    elif found.kind == "below":
+        said = f"{name} begins below FROM = {metres(found.fails)}: " + (factor_at(found.fails) if begun.factor is not None else begun.said)
+    elif found.kind == "above":
+        acts = known[found.holds][mechanism].factor is not None
+        said = f"{name} begins above TO = {metres(found.holds)}: " + (factor_at(found.holds) if acts else "it does not act there")
+    elif found.kind == "absent":
+        said = f"{name}: no level has a factor"
+    else:
+        end = f"holds up to {metres(found.holds)}" if found.holds is not None else f"fails at {metres(found.fails)}"
+        said = f"{name} {end}; runs {'above' if found.holds is not None else 'below'} have no answer"
+    return {"mechanism": mechanism, **row, "found": found.kind, "said": said}
+
+
+def first_to_begin(rows, known):
+    """The row of the mechanism that governs, or None."""
+    below = [row for row in rows if row["found"] == "below"]
+    if below:
+        return min(below, key=lambda row: rank(known[float(row["fails_at"])][row["mechanism"]]))
+    return min((row for row in rows if row["level"]), key=lambda row: float(row["level"]), default=None)
+
+
+def not_looked_at(folder, runs, mechanisms):
+    """Why there is no slope, if there is none."""
+    if SLOPE in mechanisms:
+        return []
+    said = [messages_of(folder / "runs" / row["run"] / row["run"]).get("factor") for row in runs]
+    return [f"slope was not looked at: {next((text for text in said if text), 'FACTOR=checks')}"]
+
+
+def levels_table(runs, known, mechanisms):
+    header = ["level [m]", "run", "status", *(f"{name} [-]" for name in mechanisms), "governs", "message"]
+    rows = []
+    for level, row in sorted(runs.items()):
+        found = known[level]
+        factors = [cell(found[name].factor) if name in found else "" for name in mechanisms]
+        message = row["message"] or (found[SLOPE].said if SLOPE in found else "")
+        rows.append([cell(level), row["run"], row["status"], *factors, governing(found), message])
+    return [header, *rows]
+
+
+def curves_of(known, mechanisms):
+    """Points of each mechanism that acts."""
+    points = {name: [(level, found[name].factor) for level, found in sorted(known.items())
+                     if name in found and found[name].factor is not None] for name in mechanisms}
+    return {name: line for name, line in points.items() if line}
+
+
+def draw(path, known, mechanisms, rows):
+    curves = curves_of(known, mechanisms)
+    shown = [min(factor, HIGHEST_SHOWN) for line in curves.values() for _, factor in line]
+    panel = Panel((min(known), max(known)), (0.0, max(1.5, *shown, 1.5)), "level (m)", "factor of safety (-)")
+    parts = [*panel.axes(), *panel.rule(1.0)]
+    begins = {row["mechanism"]: float(row["level"]) for row in rows if row["level"]}
+    for name, style in zip(curves, CURVES):
+        parts += panel.curve(curves[name], style)
+        if name in begins:
+            parts += panel.drop(begins[name], 1.0, style)
+    legend = [(f"{spoken(name)}, from {metres(begins[name])}" if name in begins else spoken(name), style)
+              for name, style in zip(curves, CURVES)]
+    write_changed(path, document("Factor of safety of each mechanism against the level", [*parts, *panel.legend(legend)]))
+
+
+def conclude(study, folder):
+    levels, tolerance = asked()
+    rows_known = known_of(study, folder)
+    wanted = rows_of_sweep(folder)
+    if wanted and all(row["status"] == "refused" for row in wanted):
+        raise InputError([f"no run can be made: {wanted[0]['message']}"])
+    known = outcomes(study, folder, rows_known)
+    mechanisms = in_order({name for found in known.values() for name in found})
+    silent = [row for row in wanted if not known.get(study.level_of(row[study.key]))]
+    if not mechanisms:
+        raise InputError(["no run says how safe it is", *named_failures(silent)])
+    rows = [row_of(name, known, search(name, known, (levels[0], levels[-1]))) for name in mechanisms]
+    acting = [row["mechanism"] for row in rows if row["found"] != "absent"]
+    write_changed(folder / "levels.csv", csv_text(levels_table(rows_known, known, acting)))
+    names = {"level": "level [m]", "holds_at": "holds_at [m]", "fails_at": "fails_at [m]"}
+    write_changed(folder / "critical.csv", csv_text([[names.get(name, name) for name in rows[0]], *(row.values() for row in rows)]))
+    draw(folder / "levels.svg", known, mechanisms, rows)
+    first = first_to_begin(rows, known)
+    lines = [f"{first['said'][0].upper()}{first['said'][1:]}. It governs." if first else
+             f"No mechanism is known to begin between {metres(levels[0])} and {metres(levels[-1])}."]
+    lines += [f"- {row['said']}." for row in rows if row is not first and row["found"] != "absent"]
+    absent = [spoken(row["mechanism"]) for row in rows if row["found"] == "absent"]
+    lines += [f"- {' and '.join(absent)}: no level has a factor."] if absent else []
+    lines += [f"- {text}." for text in not_looked_at(folder, rows_known.values(), mechanisms)]
+    write_changed(folder / "report.md", "\n".join(lines) + "\n")
+    print("\n".join(lines))
+    print(f"Tables and chart are in {folder.resolve()}")
+    for line in named_failures(silent):
+        print(f"critical_level.py: {line}", file=sys.stderr)
+    return 1 if silent else 0
+
+
+def main():
+    call("critical_level.py", prepare, conclude)
+
+
+if __name__ == "__main__":
+    main()

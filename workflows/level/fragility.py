@@ -1,0 +1,147 @@
+#!/usr/bin/python3
+"""How probable is failure at a level? `make -C workflows fragility` calls this, and sweep.sh makes the runs.
+
+    fragility.py prepare SCENE FOLDER      writes FOLDER/table.csv, the sweep's table: every draw at every level; prints of
+                                           which states the factor of safety is
+    fragility.py conclude SCENE FOLDER     writes fragility.csv, draws.csv, report.md, fragility.svg
+
+LEVELS, SWEEP, BOUNDARY, STEADY, SET and FACTOR come from the environment. Exit codes: 2 for wrong input; 1 if runs have no
+answer.
+"""
+
+import os
+import sys
+
+from levels import (InputError, call, named_failures, outcomes, problem, rounded, rows_of_sweep, write_changed, write_table)
+from chart import CURVES, Panel, document
+from assessment import SLOPE, Outcome, cell, in_order, spoken
+from bounds import SHARE, bounds
+from runs import MOST_RUNS, read_runs
+from sweep import csv_text
+
+ANY = "any of them"
+# Pixels between the intervals of mechanisms at one level.
+APART = 7
+
+
+def asked_levels():
+    text = os.environ.get("LEVELS", "").strip()
+    try:
+        levels = [rounded(float(part)) for part in text.split(",")]
+        finite = all(abs(level) < float("inf") for level in levels)
+    except ValueError:
+        finite = False
+    if not finite or levels != sorted(set(levels)):
+        raise InputError([problem("LEVELS", "", f"'{text}'" if text else "nothing", "rising numbers with commas between them, m")])
+    return levels
+
+
+def draws_of(study):
+    """Keys, and a list of their values for each draw."""
+    path = os.environ["SWEEP"]
+    keys, draws = read_runs(path)
+    taken = [key for key in keys if key == study.key or key in study.changes() or study.key.startswith(f"{key}.")]
+    if taken:
+        raise InputError([problem(path, taken[0], "a key that this study sets", "other keys: the level is that of LEVELS, others are in SET")])
+    return keys, draws
+
+
+def rows_of(study):
+    """Pairs of draw and level for each run, and the table. The levels of a draw stand together, so that more draws keep the
+    runs of those before."""
+    levels = asked_levels()
+    study.check_levels("LEVELS", levels)
+    keys, draws = draws_of(study)
+    if len(draws) * len(levels) > MOST_RUNS:
+        raise InputError([problem("LEVELS", "", f"{len(levels)} levels of {len(draws)} draws", f"at most {MOST_RUNS} runs")])
+    changes = study.changes()
+    table = [[study.key, *changes, *keys]]
+    table += [[study.cell(level), *changes.values(), *draw] for draw in draws for level in levels]
+    return [(number + 1, level) for number in range(len(draws)) for level in levels], table
+
+
+def prepare(study, folder):
+    write_table(study, folder, rows_of(study)[1])
+    print(study.states)
+
+
+def with_any(found, mechanisms):
+    """Adds the failure of any mechanism: known where one fails, or where none is missing."""
+    fails = any(outcome.fails for outcome in found.values())
+    return found | {ANY: Outcome(fails)} if fails or found.keys() >= set(mechanisms) else found
+
+
+def shares(runs, mechanisms, levels):
+    """Rows of fragility.csv. `runs`: draw, level, outcomes."""
+    for mechanism in mechanisms:
+        for level in levels:
+            found = [outcome for _, at, outcome in runs if at == level]
+            failed = [outcome[mechanism].fails for outcome in found if mechanism in outcome]
+            share = sum(failed) / len(failed) if failed else None
+            low, high = bounds(sum(failed), len(failed)) if failed else (None, None)
+            yield [mechanism, cell(level), len(failed), sum(failed), cell(share), cell(low), cell(high), len(found) - len(failed)]
+
+
+HEADER = ["mechanism", "level [m]", "runs", "failures", "probability [-]", "low [-]", "high [-]", "no_answer"]
+
+
+def draw_chart(path, table, mechanisms, levels):
+    margin = 0.08 * ((levels[-1] - levels[0]) or 1.0)
+    panel = Panel((levels[0] - margin, levels[-1] + margin), (-0.03, 1.03), "level (m)", "probability of failure (-)")
+    parts = list(panel.axes())
+    styles = list(zip(mechanisms, CURVES))
+    for place, (mechanism, style) in enumerate(styles):
+        # Side by side, as intervals of several mechanisms may be the same.
+        shift = panel.length(APART * (place - (len(styles) - 1) / 2))
+        points = [(float(row[1]) + shift, *map(float, row[4:7])) for row in table if row[0] == mechanism and row[4] != ""]
+        for x, _, low, high in points:
+            parts += panel.bar(x, low, high, style)
+        parts += panel.curve([point[:2] for point in points], style)
+    parts += panel.legend([(spoken(mechanism), style) for mechanism, style in styles])
+    write_changed(path, document("Probability of failure of each mechanism against the level", parts))
+
+
+def conclude(study, folder):
+    pairs, _ = rows_of(study)
+    levels = asked_levels()
+    rows = rows_of_sweep(folder)
+    found = outcomes(study, folder, dict(enumerate(rows)))
+    runs = [(draw, level, found[place]) for place, (draw, level) in enumerate(pairs) if place in found]
+    silent = [row for row, (_, _, found) in zip(rows, runs) if not found]
+    names = in_order({name for _, _, found in runs for name in found})
+    # A mechanism that never acts and whose check has nothing to look at is not shown as safe.
+    mechanisms = [name for name in names if any(name in found and (found[name].fails or found[name].factor is not None)
+                                                for _, _, found in runs)]
+    if not mechanisms:
+        raise InputError(["no run says how safe it is", *named_failures(silent)])
+    runs = [(draw, level, with_any({name: found[name] for name in mechanisms if name in found}, mechanisms))
+            for draw, level, found in runs]
+    table = list(shares(runs, mechanisms + [ANY] * (len(mechanisms) > 1), levels))
+    write_changed(folder / "fragility.csv", csv_text([HEADER, *table]))
+    draws = [[draw, row["run"], cell(level), *(cell(found[name].factor) if name in found else "" for name in mechanisms),
+              " ".join(name for name in mechanisms if name in found and found[name].fails)]
+             for row, (draw, level, found) in zip(rows, runs)]
+    write_changed(folder / "draws.csv", csv_text([["draw", "run", "level [m]", *(f"{name} [-]" for name in mechanisms), "fails"], *draws]))
+    draw_chart(folder / "fragility.svg", table, mechanisms + [ANY] * (len(mechanisms) > 1), levels)
+    lines = [f"Probability of failure in {len(runs) // len(levels)} draws, with bounds that hold {100 * SHARE:g} % of the time:"]
+    lines += [f"- {spoken(name)} at {level} m: {probability} ({low} to {high})" + (f"; {missing} runs have no answer" if missing else "")
+              for name, level, _, _, probability, low, high, missing in table if probability]
+    absent = [spoken(name) for name in names if name not in mechanisms]
+    if absent:
+        lines.append(f"No run has a factor of {' or '.join(absent)}.")
+    if SLOPE not in mechanisms:
+        lines.append("The slope was not looked at.")
+    write_changed(folder / "report.md", "\n".join(lines) + "\n")
+    print("\n".join(lines))
+    print(f"Tables and chart are in {folder.resolve()}")
+    for line in named_failures(silent):
+        print(f"fragility.py: {line}", file=sys.stderr)
+    return 1 if silent else 0
+
+
+def main():
+    call("fragility.py", prepare, conclude)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,212 @@
+"""What the studies of levels have in common: the boundary whose head is raised, the keys of a run at a level, and what the
+runs say.
+
+A constant head is replaced by the level. A head that changes in time is stretched from its first value, so that its highest
+value is the level: h(t) becomes h(0) + (h(t) - h(0)) (level - h(0)) / (max h - h(0)).
+"""
+
+import csv
+import math
+import os
+import pathlib
+import sys
+import tomllib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "sweep"))
+from assessment import STATES, outcomes_of, with_absent
+from inputs import write_changed
+from problems import InputError, problem
+from sweep import csv_text, read_csv, refuse_foreign
+
+STEADY_END = 1.0  # s: by then hardly any fines have left
+
+
+def number_in(variable, default=None):
+    """The number of a variable of make."""
+    text = os.environ.get(variable, "").strip()
+    if not text and default is not None:
+        return default
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputError([problem(variable, "", f"'{text}'" if text else "nothing", "a number")])
+    return value
+
+
+def changes_in(variable):
+    """KEY=VALUE pairs with spaces between them; spaces in quotes and brackets are part of a value."""
+    changes, depth, quote = [""], 0, ""
+    for sign in os.environ.get(variable, ""):
+        if quote:
+            quote = "" if sign == quote else quote
+        elif sign in "\"'":
+            quote = sign
+        depth += (sign in "[{") - (sign in "]}") if not quote else 0
+        if sign.isspace() and not quote and not depth:
+            changes.append("")
+        else:
+            changes[-1] += sign
+    changes = [change for change in changes if change]
+    for change in changes:
+        if "=" not in change:
+            raise InputError([problem(variable, "", f"'{change}'", "KEY=VALUE, with spaces between several")])
+    return dict(change.split("=", 1) for change in changes)
+
+
+def toml(value):
+    """A value of a scene as a text of one line."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    return repr(value)
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def pairs_of_file(path):
+    """The table of a head in a file with the columns t and head."""
+    try:
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            return [[float(row["t"]), float(row["head"])] for row in csv.DictReader(file, skipinitialspace=True)]
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise InputError([f"{path}: is no table with the columns t (s) and head (m): {error}"]) from None
+
+
+class Study:
+    """The scene, and the changes of it that its runs have in common."""
+
+    def __init__(self, path):
+        self.path = path
+        try:
+            self.scene = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise InputError([f"{path}: cannot be read: {error}"]) from None
+        self.own = changes_in("SET")
+        self._find_boundary()
+        steady = os.environ.get("STEADY", "").strip()
+        if steady not in ("", "0", "1"):
+            raise InputError([problem("STEADY", "", f"'{steady}'", "1, or nothing")])
+        self.is_steady = self.history is None or steady == "1"
+        if self.is_steady:
+            self.history = None
+        self.states = os.environ.get("FACTOR", "").strip() or ("start" if self.is_steady else "all")
+        self.states = {"0": "checks", "1": "last"}.get(self.states, self.states)
+        if self.states not in STATES:
+            raise InputError([problem("FACTOR", "", f"'{self.states}'", "start, last, all, or checks")])
+
+    def _find_boundary(self):
+        name = os.environ.get("BOUNDARY", "").strip()
+        entries = self.scene.get("boundary", [])
+        entries = [entry if isinstance(entry, dict) else {} for entry in entries if isinstance(entries, list)]
+        with_head = [str(entry.get("on")) for entry in entries if {"head", "file"} & entry.keys()]
+        known = " or ".join(f'"{on}"' for on in with_head) or "a scene with such a boundary; this one has none"
+        place = next((place for place, entry in enumerate(entries) if entry.get("on") == name), None)
+        if place is None:
+            found = f'"{name}", which is no boundary of {self.path}' if name else "nothing"
+            raise InputError([problem("BOUNDARY", "", found, f"a boundary with a head: {known}")])
+        self.entry, self.key = entries[place], f"boundary[{place}].head"
+        if name not in with_head:
+            raise InputError([problem("BOUNDARY", "", f'"{name}", which has no head', f"a boundary with a head: {known}")])
+        taken = [key for key in self.own if key == f"boundary[{place}]" or key.startswith(f"boundary[{place}].head")]
+        if taken:
+            raise InputError([problem("SET", taken[0], "the head that this study varies", "other keys")])
+        head = self.entry.get("head")
+        if "file" in self.entry:
+            head = pairs_of_file(self.path.parent / str(self.entry["file"]))
+            self.key = f"boundary[{place}]"
+        self.history = None if is_number(head) else head
+        if self.history is None:
+            return
+        if not (isinstance(head, list) and head and all(isinstance(pair, list) and len(pair) == 2 and
+                                                         all(map(is_number, pair)) for pair in head)):
+            raise InputError([problem(self.path, f"boundary[{place}].head", toml(head), "a number, or pairs [[t, head], ...]")])
+
+    def check_levels(self, variable, levels):
+        """Throws InputError where the hydrograph cannot be stretched to a level."""
+        if self.history is None:
+            return
+        first, highest = self.history[0][1], max(head for _, head in self.history)
+        if not highest > first:
+            raise InputError([problem("BOUNDARY", "", f"a table of heads that never rises above its first, {first:g} m",
+                                      "one that rises, or STEADY=1")])
+        if min(levels) < first:
+            raise InputError([problem(variable, "", f"{min(levels):g}", f"a level above {first:g} m, the first head of the table")])
+
+    def cell(self, level):
+        """The value of the boundary's key at a level."""
+        head = level
+        if self.history is not None:
+            first, highest = self.history[0][1], max(head for _, head in self.history)
+            scale = (level - first) / (highest - first)
+            head = [[t, float(f"{first + scale * (value - first):.10g}")] for t, value in self.history]
+        if not self.key.endswith("]"):
+            return toml(head)
+        entry = {key: value for key, value in self.entry.items() if key != "file"} | {"head": head}
+        return "{" + ", ".join(f"{key} = {toml(value)}" for key, value in entry.items()) + "}"
+
+    def level_of(self, cell):
+        """The level of a value of the boundary's key, or None."""
+        try:
+            head = tomllib.loads(f"x = {cell}")["x"]
+            head = head["head"] if isinstance(head, dict) else head
+            return rounded(max(pair[1] for pair in head) if isinstance(head, list) else head)
+        except (ValueError, KeyError, TypeError, IndexError):
+            return None
+
+    def changes(self):
+        """The changes that all runs have in common."""
+        steady = {}
+        if self.is_steady and "from" not in self.scene.get("initial", {}):
+            end = float(self.own.get("time.end", min(STEADY_END, self.scene.get("time", {}).get("end", STEADY_END))))
+            steady = {"initial.flow": '"steady"', "time.end": f"{end:g}", "output.every": f"{end:g}", "output.snapshot_every": f"{end:g}"}
+        return steady | self.own
+
+
+def rounded(level):
+    return float(f"{level:.10g}")
+
+
+def write_table(study, folder, rows):
+    """The table of the sweep. Throws InputError if the folder is that of another scene."""
+    refuse_foreign(folder / "runs", study.path, folder.resolve() / "table.csv")
+    write_changed(folder / "table.csv", csv_text(rows))
+
+
+def rows_of_sweep(folder):
+    """The rows of the sweep as far as it was made, as dictionaries."""
+    path = folder / "runs" / "sweep.csv"
+    if not path.is_file():
+        return []
+    header, *rows = read_csv(path)
+    return [dict(zip(header, row)) for row in rows]
+
+
+def outcomes(study, folder, rows):
+    """What the mechanisms did in each run. `rows`: key -> row of the sweep."""
+    return with_absent({key: outcomes_of(folder / "runs", row["run"], row["status"], row["message"], study.states)
+                        for key, row in rows.items()})
+
+
+def named_failures(rows):
+    """A line for each run that has no answer, ten at most."""
+    lines = [f"{row['run']} {row['status']}: {row['message'] or 'has no answer; call make again'}" for row in rows]
+    return lines[:10] + ([f"... and {len(lines) - 10} more: see runs/sweep.csv"] if len(lines) > 10 else [])
+
+
+def call(name, prepare, conclude):
+    """NAME.py prepare|conclude SCENE FOLDER."""
+    if len(sys.argv) != 4 or sys.argv[1] not in ("prepare", "conclude"):
+        sys.exit(f"usage: {name} prepare|conclude SCENE FOLDER")
+    try:
+        study = Study(pathlib.Path(sys.argv[2]).absolute())
+        sys.exit((prepare if sys.argv[1] == "prepare" else conclude)(study, pathlib.Path(sys.argv[3])))
+    except InputError as error:
+        print("\n".join(f"{name}: {line}" for line in str(error).splitlines()), file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,231 @@
+#!/usr/bin/python3
+"""Do the studies of levels find levels and probabilities that are known, without any run? Prints what fails."""
+
+import math
+import os
+import pathlib
+import random
+import sys
+import tempfile
+
+workflows = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(workflows / "sweep"), str(workflows / "level")]
+from assessment import Outcome, checks_of, outcomes_of, with_absent
+from bounds import bounds
+from critical_level import crossing, replay, search
+from expectations import expect, expect_near, finish
+from fragility import with_any
+from levels import Study, changes_in
+from problems import InputError
+
+FROM, TO, SCAN, TOLERANCE = 1.0, 4.0, [1.0, 1.75, 2.5, 3.25, 4.0], 0.03
+
+
+# Factors of mechanisms against the level, and the level where each is 1; None: there is no factor.
+def of_factor(factor):
+    return Outcome(factor is not None and factor < 1.0, factor)
+
+
+MECHANISMS = {
+    "heave": (lambda h: of_factor(0.7 / (h - 0.9)), 1.6),  # effect linear in the level
+    "erosion": (lambda h: of_factor(3.0 / h**3), 3.0 ** (1.0 / 3.0)),
+    "uplift": (lambda h: of_factor(math.exp(10.0 * (3.7 - h))), 3.7),
+    "backward-erosion": (lambda h: of_factor(None if h < 2.0 else 3.3 / h), 3.3),
+    "slope": (lambda h: Outcome(True, None, said="no equilibrium") if h > 2.9 else of_factor(1.01 + 0.1 * (2.9 - h)), 2.9),
+    "hyd-forces": (lambda h: of_factor(0.4 + 0.3 * h), None),  # grows from below 1: has begun at FROM
+    "filter": (lambda h: of_factor(None), None),
+    "hyd-stresses": (lambda h: of_factor(8.0 / h), None),
+}
+
+
+def study_of(mechanisms, silent=lambda name, h: False):
+    """All levels of the search of these mechanisms, and the outcomes there; how many rounds it took."""
+    known, rounds = {}, 0
+    while True:
+        levels = replay(SCAN, known, TOLERANCE)
+        if all(level in known for level in levels):
+            return known, rounds
+        rounds += 1
+        for level in levels:
+            known.setdefault(level, {name: MECHANISMS[name][0](level) for name in mechanisms if not silent(name, level)})
+
+
+def check_search():
+    kinds = {"hyd-forces": "below", "filter": "absent", "hyd-stresses": "above"}
+    for name, (_, exact) in MECHANISMS.items():
+        known, rounds = study_of([name])
+        found = search(name, known, (FROM, TO))
+        expect(f"{name}: what is found", kinds.get(name, "between"), found.kind)
+        if exact is None:
+            expect(f"{name}: no further rounds", 1, rounds)
+            continue
+        expect(f"{name}: the bracket has the level, and is as narrow as asked for", True,
+               found.holds <= exact <= found.fails and found.fails - found.holds <= TOLERANCE * (1.0 + 1e-9))
+        expect(f"{name}: {rounds} rounds are at most 12", True, rounds <= 12)
+    known, rounds = study_of(["heave"])
+    expect_near("heave: a straight line is met exactly", 1.6, crossing("heave", known, search("heave", known, (FROM, TO))), 1e-9)
+    expect("heave: in two rounds", 2, rounds)
+    together, _ = study_of(MECHANISMS)
+    for name, (_, exact) in MECHANISMS.items():
+        found = search(name, together, (FROM, TO))
+        if exact is not None:
+            expect(f"{name}, with all others", True, found.holds <= exact <= found.fails <= found.holds + TOLERANCE * (1.0 + 1e-9))
+    known, _ = study_of(["heave"], lambda name, h: h > 3.9)
+    expect("the end without an answer does not hide a crossing", "between", search("heave", known, (FROM, TO)).kind)
+    known, _ = study_of(["hyd-stresses"], lambda name, h: h > 3.9)
+    expect("what is not known at TO is not above TO", "unknown", search("hyd-stresses", known, (FROM, TO)).kind)
+    so_far = {level: found for level, found in known.items() if level < 3.0}
+    expect("nor what is not made yet", "unknown", search("hyd-stresses", so_far, (FROM, TO)).kind)
+    known, rounds = study_of(["heave"], lambda name, h: 1.0 < h < 1.75)
+    expect("levels without an answer end the search", "between", search("heave", known, (FROM, TO)).kind)
+
+
+# Bounds of Clopper and Pearson, 95 %: from published tables, and closed forms for none and all.
+BOUNDS = [((0, 10), (0.0, 0.3085)), ((1, 10), (0.0025, 0.4450)), ((5, 10), (0.1871, 0.8129)), ((10, 10), (0.6915, 1.0)),
+          ((3, 20), (0.0321, 0.3789)), ((0, 100), (0.0, 0.0362))]
+
+
+def check_bounds():
+    for counts, (low, high) in BOUNDS:
+        found = bounds(*counts)
+        expect_near(f"{counts}: low", low, found[0], 5e-5)
+        expect_near(f"{counts}: high", high, found[1], 5e-5)
+    expect_near("none of 7", 1.0 - 0.025 ** (1.0 / 7.0), bounds(0, 7)[1], 1e-6)
+    for probability in (0.03, 0.2, 0.5):
+        generator = random.Random(f"coverage {probability}")
+        inside = 0
+        intervals = {}
+        for _ in range(2000):
+            failures = sum(generator.random() < probability for _ in range(30))
+            low, high = intervals.setdefault(failures, bounds(failures, 30))
+            inside += low <= probability <= high
+        # Of 2000 samples, 95 % or more; three standard errors are 1.5 %. Counts are whole, so it may be all but 1 %.
+        expect(f"{inside} of 2000 samples have {probability} within their bounds", True, 1870 <= inside <= 1995)
+
+
+def study(scene, **variables):
+    """The study of a scene, or what is said of it."""
+    for name in ("BOUNDARY", "STEADY", "SET", "FACTOR"):
+        os.environ[name] = variables.get(name, "")
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "scene.toml"
+        path.write_text(scene, encoding="utf-8")
+        (path.parent / "flood.csv").write_text("t,head\n0,1\n10,3\n20,0.5\n", encoding="utf-8")
+        try:
+            return Study(path)
+        except InputError as error:
+            return str(error).replace(str(path), "SCENE")
+
+
+SCENE = """
+[[boundary]]
+on = "river"
+head = [[0.0, 1.0], [10.0, 3.0], [20.0, 0.5]]
+[[boundary]]
+on = "land"
+head = 0.5
+[[boundary]]
+on = "face"
+seepage_face = true
+[[boundary]]
+on = "gauge"
+file = "flood.csv"
+concentration = 0.0
+[time]
+end = 100.0
+"""
+
+
+def check_scenes():
+    river = study(SCENE, BOUNDARY="river")
+    expect("a hydrograph is stretched from its first head", "[[0.0, 1.0], [10.0, 5.0], [20.0, 0.0]]", river.cell(5.0))
+    expect("its level is read back", 5.0, river.level_of(river.cell(5.0)))
+    expect("it runs as the scene says", ({}, "all"), (river.changes(), river.states))
+    steady = study(SCENE, BOUNDARY="river", STEADY="1", SET="time.end=3 a.b={x = [1, 2], y = 'z z'}")
+    expect("or stands for ever", ("5.0", "start"), (steady.cell(5.0), steady.states))
+    expect("with keys of one's own", {"initial.flow": '"steady"', "time.end": "3", "output.every": "3", "output.snapshot_every": "3",
+                                      "a.b": "{x = [1, 2], y = 'z z'}"}, steady.changes())
+    gauge = study(SCENE, BOUNDARY="gauge")
+    expect("a table in a file", ("boundary[3]", '{on = "gauge", concentration = 0.0, head = [[0.0, 1.0], [10.0, 5.0], [20.0, 0.0]]}'),
+           (gauge.key, gauge.cell(5.0)))
+    expect("its level is read back", 5.0, gauge.level_of(gauge.cell(5.0)))
+    land = study(SCENE, BOUNDARY="land")
+    expect("a constant head", ("boundary[1].head", "2.5", "1"), (land.key, land.cell(2.5), land.changes()["time.end"]))
+    known = 'a boundary with a head: "river" or "land" or "gauge"'
+    expect("no such boundary", f'BOUNDARY: got "rivr", which is no boundary of SCENE; expected {known}', study(SCENE, BOUNDARY="rivr"))
+    expect("a boundary without a head", f'BOUNDARY: got "face", which has no head; expected {known}', study(SCENE, BOUNDARY="face"))
+    expect("no boundary", f"BOUNDARY: got nothing; expected {known}", study(SCENE))
+    expect("a change of the head", "SET: boundary[1].head: got the head that this study varies; expected other keys",
+           study(SCENE, BOUNDARY="land", SET="boundary[1].head=3"))
+    expect("no change", "SET: got 'x'; expected KEY=VALUE, with spaces between several", study(SCENE, BOUNDARY="land", SET="x"))
+    try:
+        river.check_levels("FROM", [0.5, 2.0])
+        expect("a level below the first head", "is refused", "is taken")
+    except InputError as error:
+        expect("a level below the first head", "FROM: got 0.5; expected a level above 1 m, the first head of the table", str(error))
+
+
+# Tables of `suffuse-post check`, and what they say: with units in brackets, in parentheses, in a line of their own, or without.
+CHECKS = [header + "heave,toe,i_cr,0,1,2,2.0,0,0\nheave,base,i_cr,0,4,2,0.5,0,0\nfilter,a to b,,,,,,,\n" for header in (
+    "mechanism,where,clause,t [s],effect,resistance,factor [-],x [m],y [m]\n",
+    "mechanism,where,clause,t (s),effect,resistance,factor (-),x (m),y (m)\n",
+    "mechanism,where,clause,t,effect,resistance,factor,x,y\n#,,,s,,,,m,m\n",
+    "mechanism,where,clause,t,effect,resistance,factor,x,y\n")]
+# Status, message of the run, message of the strength reduction, factor, states asked for; whether the slope fails, and its factor.
+SLOPES = [
+    ("done", "", "", "1.3", "last", (False, 1.3)),
+    ("done", "", "", "0.8", "last", (True, 0.8)),
+    ("done", "", "no soil has a strength", "", "last", None),
+    ("done", "", "r at t = 0 s: there is no factor of safety: the soil fails, even with 0.01 times its strength", "", "last", (True, None)),
+    ("failed", "suffuse-solver: error: t = 3 s: the soil has lost its equilibrium: it cannot carry", "", "1.1", "last", (True, None)),
+    ("failed", "suffuse-solver: error: t = 3 s: the soil has lost its equilibrium: it cannot carry", "", "1.1", "start", (False, 1.1)),
+    ("failed", "suffuse-solver: error: the soil has no equilibrium at the start: it cannot", "", "0.9", "start", (True, 0.9)),
+    ("failed", "suffuse-solver: error: no step is short enough", "", "", "last", None),
+    ("unfinished", "stopped", "", "1.3", "last", None),
+]
+
+
+def check_outcomes():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        stem = folder / "0001" / "0001"
+        stem.parent.mkdir()
+        (folder / "assess.inputs").write_text("")
+        os.utime(folder / "assess.inputs", (1.0, 1.0))
+        for text in CHECKS:
+            stem.with_name("0001.check.csv").write_text(text)
+            found = checks_of(stem)
+            expect("the worst place counts, with or without units", (True, 0.5, "base"),
+                   (found["heave"].fails, found["heave"].factor, found["heave"].place))
+            expect("an empty factor is none", (False, None), (found["filter"].fails, found["filter"].factor))
+        for word, message, said, factor, states, expected in SLOPES:
+            stem.with_name("0001.status").write_text(word)
+            os.utime(stem.with_name("0001.status"), (1.0, 1.0))
+            stem.with_name("0001.assessed").write_text(f"factor: {said}\n" if said else "")
+            stem.with_name("0001.factors.csv").write_text(f"t,factor\n0,{factor}\n")
+            found, _ = outcomes_of(folder, "0001", word, message, states)
+            slope = found.get("slope")
+            expect(f"slope: {word} {message} {said} {factor}", expected, slope and (slope.fails, slope.factor))
+            if word == "failed":
+                expect("a run that failed has shown its start, or what had begun", {"heave", "filter"} if states == "start" else {"heave"},
+                       found.keys() - {"slope"})
+
+
+def check_absent():
+    heave, slope = Outcome(True, 0.5), Outcome(False, 1.2)
+    runs = {1: ({"slope": slope}, True), 2: ({"heave": heave, "slope": slope}, True), 3: ({"slope": slope}, False), 4: ({}, True)}
+    found = with_absent(runs)
+    expect("no row of a mechanism that others have: it does not act", Outcome(False), found[1].get("heave"))
+    expect("but a run that failed says nothing of it", None, found[3].get("heave"))
+    expect("any of them fails, does not, or is not known", [Outcome(False), Outcome(True), None],
+           [with_any(run, ["heave", "slope"]).get("any of them") for run in (found[1], found[2], found[3])])
+    expect("and there is no slope that was not looked at", {"heave"}, set(found[4]))
+
+
+if __name__ == "__main__":
+    check_search()
+    check_bounds()
+    check_scenes()
+    check_outcomes()
+    check_absent()
+    finish("levels, probabilities and what runs say of them")

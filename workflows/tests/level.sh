@@ -1,0 +1,179 @@
+#!/usr/bin/env bash
+# Do studies of levels find levels and probabilities that are known exactly, go on after they were
+# killed, and refuse what they cannot study? Does a sweep tell how safe its runs are? Works in a folder
+# of its own, whose name has spaces; arguments go to make (BIN=FOLDER, -j2).
+#
+# Water rises through a column 1 m high with the head H below and 1 m above: i = H - 1. Erosion begins
+# at i = 0.5, so at 1.5 m; heave at i' = (1 - 0.3) 1.7 = 1.19, so at 2.19 m. By EN 1997-1 forces balance
+# at i = 0.9 / 1.35 i', so at 1.7933 m, and stresses at i = 0.9 / 1.35 (i' + 1) - 1, so at 1.46 m.
+set -euo pipefail
+
+workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+work=$(mktemp -d)/"with spaces"
+trap 'rm -rf "$(dirname "$work")"' EXIT
+make_arguments=("$@")
+. "$workflows/tests/expect.sh"
+mkdir -p "$work/my scenes"
+cd "$work/my scenes"
+
+# run_make TARGET VARIABLE...: sets `code` to the exit code and writes the output to make.log.
+run_make() {
+  code=0
+  make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" "$@" > "$work/make.log" 2>&1 || code=$?
+}
+said() { grep -o -- "$1" "$work/make.log" | head -1; }
+statuses() { (cd "$1" && find . -name '*.status' -printf '%P %T@\n' -o -name '*.assessed' -printf '%P %T@\n' | sort); }
+
+# level_of MECHANISM EXACT TOLERANCE: whether critical.csv has the exact level in a bracket that is
+# narrow enough, and the level within a hundredth of the tolerance.
+level_of() {
+  awk -F, -v name="$1" -v exact="$2" -v tolerance="$3" '$1 == name {
+      d = $2 - exact; narrow = $4 - $3 <= tolerance * 1.000001
+      print ($3 <= exact && exact <= $4 && narrow && d * d <= tolerance * tolerance * 1e-4 ? "found" : $2 ": " $3 " to " $4)
+    }' "$out/critical.csv"
+}
+
+cat > "a column.toml" <<'END'
+formulation = "single-point"
+gravity = [0.0, -9.81]
+geometry = {shape = "column", width = 0.25, height = 1.0}
+mesh.size = 0.25
+liquid = {density = 1000.0, bulk_modulus = inf, viscosity = 1e-3}
+boundary = [{on = "bottom", head = 1.5}, {on = "top", head = 1.0}, {on = "left", darcy_flux = 0.0}]
+initial.flow = "steady"
+time.end = 100.0
+output.every = 50.0
+
+[soil.specimen]
+porosity = 0.3
+skeleton_fraction = 0.6
+grain_density = 2700.0
+conductivity = 1e-4
+erosion = {law = "first-order", drive = "gradient", rate = 1e-6, threshold = 0.5}
+END
+column=(SCENE="a column.toml" BOUNDARY=bottom)
+
+out="$work/o ut/critical-level/a column"
+search=(critical-level "${column[@]}" FROM=1.1 TO=3.1 SCAN=2 TOLERANCE_LEVEL=0.01)
+run_make "${search[@]}"
+expect 'a critical level' 0 "$code"
+expect 'erosion begins where its threshold is' found "$(level_of erosion 1.5 0.01)"
+expect 'heave begins at the critical gradient' found "$(level_of heave 2.19 0.01)"
+expect 'and by EN 1997-1 with its factors' 'found found' "$(level_of hyd-stresses 1.46 0.01) $(level_of hyd-forces 1.793333333 0.01)"
+expect 'the lowest one governs' 'Heave by EN 1997-1, stresses begins at 1.46 m' "$(said 'Heave by EN 1997-1, stresses begins at 1.46 m')"
+expect 'soil without a strength has no slope' 'slope was not looked at: no soil has a strength.' "$(said 'slope was not.*')"
+expect 'files' "$(printf '%s\n' critical.csv levels.csv levels.svg report.md runs table.csv)" "$(ls "$out")"
+expect 'the least factor governs at each level' "$(printf '%s\n' hyd-stresses erosion)" "$(awk -F, 'NR > 1 { for (i = 1; i <= NF; ++i) if ($i ~ /^(erosion|hyd-.*|heave)$/) print $i }' "$out/levels.csv" | uniq)"
+before=$(statuses "$out")
+cp "$out/levels.csv" "$work/table"
+run_make "${search[@]}"
+expect 'a second call makes nothing' "$before" "$(statuses "$out")"
+expect 'and the same table' same "$(cmp "$work/table" "$out/levels.csv" && echo same)"
+
+run_make critical-level "${column[@]}" FROM=1.6 TO=2 SCAN=2 NAME=ends
+expect 'a level below FROM' 'Erosion begins below FROM = 1.6 m: its factor is 0.833 there. It governs.' "$(said 'Erosion.*')"
+expect 'a level above TO' 'heave begins above TO = 2 m: its factor is 1.19 there.' "$(said 'heave begins.*')"
+
+# Sand without cohesion is lifted where heave begins: there it has no equilibrium, and no factor.
+sed 's/"bottom"/"bottom", fix = "both"/; s/"left", darcy_flux = 0.0/"left", fix = "normal"}, {on = "right", fix = "normal"/; /^erosion/d' "a column.toml" > lifted.toml
+cat >> lifted.toml <<'END'
+skeleton = {law = "mohr-coulomb", young = 1e7, poisson = 0.3, friction = 30, cohesion = 0.0}
+END
+out="$work/o ut/critical-level/lifted"
+run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2 TOLERANCE_LEVEL=0.1
+expect 'soil that fails is an answer' '0 between' "$code $(awk -F, '$1 == "slope" && $3 <= 2.19 && 2.19 <= $4 && $4 - $3 <= 0.1000001 { print "between" }' "$out/critical.csv")"
+expect 'with its message' 'it fails without a factor: ' "$(said 'it fails without a factor: ')"
+
+# A flood of 20 s: erosion begins at its highest head, as nothing is stored. The level is the same as under a steady head.
+sed 's/head = 1.5/head = [[0, 1.0], [10, 2.0], [20, 1.0]]/; s/^initial.*/initial.water_level = 1.0/; s/^time.*/time.end = 20.0/
+  s/^output.*/output.every = 5.0/' "a column.toml" > flood.toml
+out="$work/o ut/critical-level/flood"
+run_make critical-level SCENE=flood.toml BOUNDARY=bottom FROM=1.4 TO=1.6 SCAN=2 TOLERANCE_LEVEL=0.02 FACTOR=checks
+expect 'a hydrograph' '0 found' "$code $(level_of erosion 1.5 0.02)"
+cp "$out/table.csv" "$work/table"
+run_make critical-level "${column[@]}" FROM=1.4 TO=1.6 NAME=flood
+expect 'the study of another scene is not replaced' '2 same 1' \
+  "$code $(cmp "$work/table" "$out/table.csv" && echo same) $(grep -c 'runs: got the runs of .*flood.toml and .*table.csv; expected another NAME=' "$work/make.log")"
+
+# The same draws at both levels. In a draw erosion begins at H - 1 = threshold.
+printf '%s\n' runs,6 seed,2 sampling,latin-hypercube key,distribution,mean,deviation,min,max \
+  soil.specimen.erosion.threshold,lognormal,0.6,0.2,, > draws.csv
+fragility=(fragility "${column[@]}" LEVELS=1.45,1.65 SWEEP=draws.csv)
+out="$work/o ut/fragility/a column"
+run_make "${fragility[@]}"
+expect 'a fragility' 0 "$code"
+# P = Phi((ln i - m) / s), s2 = ln(1 + (0.2 / 0.6)^2), m = ln 0.6 - s2 / 2.
+expect 'the probability is within its bounds, failures are the draws below i' 'yes yes' \
+  "$(/usr/bin/python3 - "$out" <<'END'
+import csv, math, statistics, sys
+variance = math.log1p((0.2 / 0.6) ** 2)
+law = statistics.NormalDist(math.log(0.6) - variance / 2, math.sqrt(variance))
+thresholds = {row["run"]: float(row["soil.specimen.erosion.threshold"]) for row in csv.DictReader(open(f"{sys.argv[1]}/runs/runs.csv"))}
+draws = sorted(thresholds.values())[::2]
+for row in csv.DictReader(open(f"{sys.argv[1]}/fragility.csv")):
+    if row["mechanism"] == "erosion":
+        gradient = float(row["level [m]"]) - 1.0
+        exact = float(row["low [-]"]) <= law.cdf(math.log(gradient)) <= float(row["high [-]"])
+        counted = int(row["failures"]) == sum(draw < gradient for draw in draws)
+        print("yes" if exact and counted else f"{row} {draws}", end=" " if gradient < 0.5 else "")
+END
+)"
+expect 'each mechanism, and any of them' "$(printf '%s\n' 'any of them' erosion heave hyd-forces hyd-stresses mechanism)" "$(cut -d, -f1 "$out/fragility.csv" | sort -u)"
+expect 'files' "$(printf '%s\n' draws.csv fragility.csv fragility.svg report.md runs table.csv)" "$(ls "$out")"
+for table in fragility.csv draws.csv runs/sweep.csv; do cp "$out/$table" "$work/${table##*/}"; done
+rm -rf "$out"
+# One run at a time, killed in the middle.
+(make -C "$workflows" "${make_arguments[@]}" -j1 OUT="$work/o ut" "${fragility[@]}" > /dev/null 2>&1) & caller=$!
+for ((i = 0; i < 600; ++i)); do [ ! -e "$out/runs/0003/0003.status" ] || break; sleep 0.1; done
+# tree PID: prints the process and all its descendants.
+tree() { echo "$1"; for child in $(pgrep -P "$1"); do tree "$child"; done; }
+for pid in $(tree "$caller"); do kill -9 "$pid" 2> /dev/null || true; done
+{ wait "$caller" || true; } 2> /dev/null
+expect 'killed before its end' '' "$(ls "$out" | grep fragility || true)"
+run_make "${fragility[@]}" -j1
+for table in fragility.csv draws.csv runs/sweep.csv; do
+  expect "one by one, killed and called again: the same ${table##*/}" same "$(cmp "$work/${table##*/}" "$out/$table" && echo same)"
+done
+
+printf '%s\n' 'boundary[0].head' 2.0 2.5 > heads.csv
+run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=1
+out="$work/o ut/sweep/heads"
+# cells COLUMN: of sweep.csv, without texts in quotes.
+cells() {
+  sed 's/"[^"]*"//g' "$out/sweep.csv" |
+    awk -F, -v wanted="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == wanted) at = i; next } { printf "%s ", $at }'
+}
+expect 'a sweep that tells how safe its runs are: erosion at i over 0.5' '0 0.5 0.3333333333 ' "$code $(cells factor_erosion)"
+expect 'heave' 'yes' "$(cells factor_heave | awk '{ print ($1 / 1.19 - 1) ^ 2 < 1e-9 && ($2 / 1.19 * 1.5 - 1) ^ 2 < 1e-9 ? "yes" : $0 }')"
+expect 'a state without a factor has the reason' '  no soil has a strength no soil has a strength ' "$(cells factor)$(cells factor_message)"
+expect 'no column of times' '' "$(head -1 "$out/sweep.csv" | grep -o 'seconds' || true)"
+before=$(statuses "$out")
+run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=1
+expect 'a second call makes nothing' "$before" "$(statuses "$out")"
+run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=2
+expect 'an unknown FACTOR' "2 FACTOR: got '2'; expected 1, all, start or checks" "$code $(grep ^FACTOR "$work/make.log")"
+run_make sweep SCENE="a column.toml" SWEEP=heads.csv
+expect 'without FACTOR no such columns' '0 ' "$code $(head -1 "$out/sweep.csv" | grep -o 'factor' || true)"
+
+refused() {
+  local what=$1 message=$2
+  shift 2
+  run_make "$@" NAME=refused
+  expect "$what" "2 $message" "$code $(grep -o 'critical_level.py: .*\|fragility.py: .*' "$work/make.log" | head -1)"
+}
+refused 'FROM above TO' 'critical_level.py: FROM: got 3, and TO=1; expected a level below TO' critical-level "${column[@]}" FROM=3 TO=1
+refused 'no TO' 'critical_level.py: TO: got nothing; expected a number' critical-level "${column[@]}" FROM=3
+refused 'a boundary without a head' \
+  'critical_level.py: BOUNDARY: got "left", which has no head; expected a boundary with a head: "bottom" or "top"' \
+  critical-level "${column[@]}" BOUNDARY=left FROM=1 TO=3
+refused 'levels that fall' "fragility.py: LEVELS: got '3,1'; expected rising numbers with commas between them, m" \
+  fragility "${column[@]}" LEVELS=3,1 SWEEP=draws.csv
+refused 'draws of the head' "fragility.py: $PWD/heads.csv: boundary[0].head: got a key that this study sets; expected other keys: \
+the level is that of LEVELS, others are in SET" fragility "${column[@]}" LEVELS=1,3 SWEEP=heads.csv
+expect 'nothing is written' none "$(ls "$work/o ut/critical-level/refused" "$work/o ut/fragility/refused" 2> /dev/null || echo none)"
+refused 'keys that the mesher refuses' "critical_level.py: no run can be made: --set soil.specimen.porosity=2: soil.specimen.porosity: \
+got 2; expected a number with 0 < n_0 < 1" \
+  critical-level "${column[@]}" FROM=1.1 TO=3 SCAN=2 SET=soil.specimen.porosity=2
+
+"$workflows/tests/level.py" || failures=$((failures + 1))
+[ "$failures" -eq 0 ] || { echo "$failures of the checks of levels failed"; exit 1; }
