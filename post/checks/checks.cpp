@@ -72,18 +72,18 @@ class Gaps {
   const std::vector<CheckRow>& rows_;
 };
 
-std::string short_cell(double value) {
+std::string rounded_cell(double value) {
   return std::isnan(value) ? "-" : short_text(value);
 }
 
-std::string number_cell(double value) {
+std::string exact_cell(double value) {
   return std::isnan(value) ? "" : number_text(value);
 }
 
 /// Columns of the text: the first two aligned to the left.
 std::vector<std::string> text_cells(const CheckRow& row) {
   const auto with_unit = [&](double value) {
-    return short_cell(value) +
+    return rounded_cell(value) +
            (std::isnan(value) || row.unit == "1" || row.unit.empty() ? "" : " " + row.unit);
   };
   return {row.mechanism,
@@ -91,7 +91,7 @@ std::vector<std::string> text_cells(const CheckRow& row) {
           row.factor ? short_text(*row.factor) : "-",
           with_unit(row.effect),
           with_unit(row.resistance),
-          short_cell(row.time),
+          rounded_cell(row.time),
           row.place.empty() ? "-" : place_text(row.place),
           row.clause};
 }
@@ -168,9 +168,9 @@ std::string check_table(const CheckReport& report, int dimension) {
     std::vector<std::string> cells{row.mechanism,
                                    row.where,
                                    row.clause,
-                                   number_cell(row.time),
-                                   number_cell(row.effect),
-                                   number_cell(row.resistance),
+                                   exact_cell(row.time),
+                                   exact_cell(row.effect),
+                                   exact_cell(row.resistance),
                                    row.unit,
                                    row.factor ? number_text(*row.factor) : ""};
     for (int d = 0; d < dimension; ++d) {

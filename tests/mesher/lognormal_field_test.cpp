@@ -10,7 +10,8 @@
 namespace suffuse {
 namespace lognormal_field_test {
 
-constexpr int draws = 200;
+constexpr int draws = 2000;
+constexpr double errors = 3.0;  // standard errors within which an estimate must lie
 
 /// The Gaussian variable (ln k - mean)/deviation of each draw at a place.
 std::vector<double> gaussians(const FieldModel& model, double bedding, double x, double z) {
@@ -36,14 +37,21 @@ double mean(const std::vector<double>& a) {
   return mean_product(a, std::vector<double>(draws, 1.0));
 }
 
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto covariance = [](const auto& u, const auto& v) {
+    return mean_product(u, v) - mean(u) * mean(v);
+  };
+  return covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
+}
+
 const FieldModel model{.variation = 0.5, .along = 4.0, .across = 1.0};
 
-/// Each within two of its standard errors: 1/sqrt(N), sqrt(2/N).
+/// Standard errors: 1/sqrt(N) of the mean, sqrt(2/N) of the variance.
 TEST(LognormalField, MeanAndVarianceOfManyDraws) {
   for (const double x : {0.0, 3.0, 250.0}) {
     const std::vector<double> g = gaussians(model, 0.0, x, -0.5 * x);
-    EXPECT_NEAR(mean(g), 0.0, 2.0 / std::sqrt(draws)) << x;
-    EXPECT_NEAR(mean_product(g, g), 1.0, 2.0 * std::sqrt(2.0 / draws)) << x;
+    EXPECT_NEAR(mean(g), 0.0, errors / std::sqrt(draws)) << x;
+    EXPECT_NEAR(mean_product(g, g), 1.0, errors * std::sqrt(2.0 / draws)) << x;
   }
   double sum = 0.0;
   double squares = 0.0;
@@ -54,12 +62,12 @@ TEST(LognormalField, MeanAndVarianceOfManyDraws) {
     sum += k / draws;
     squares += k * k / draws;
   }
-  EXPECT_NEAR(sum, 1.0, 2.0 * model.variation / std::sqrt(draws));
+  EXPECT_NEAR(sum, 1.0, errors * model.variation / std::sqrt(draws));
   const double variance = squares - sum * sum;
   // The standard error of a variance needs the fourth moment; of a lognormal variable with this
   // variation the kurtosis is 8.04.
   const double squared = model.variation * model.variation;
-  EXPECT_NEAR(variance, squared, 2.0 * squared * std::sqrt((8.04 - 1.0) / draws));
+  EXPECT_NEAR(variance, squared, errors * squared * std::sqrt((8.04 - 1.0) / draws));
 }
 
 /// exp(-(r/l)^2) along and across bedding, which is turned by 30 degrees; the standard error is
@@ -70,12 +78,11 @@ TEST(LognormalField, CorrelationAlongAndAcrossBedding) {
   const std::vector<double> here = gaussians(model, 30.0, 0.0, 0.0);
   for (const double share : {0.25, 0.5, 1.0, 3.0}) {
     const double expected = std::exp(-share * share);
-    const double error = 2.0 * (1.0 - expected * expected) / std::sqrt(draws);
+    const double error = errors * (1.0 - expected * expected) / std::sqrt(draws);
     const double a = share * model.along;
-    EXPECT_NEAR(mean_product(here, gaussians(model, 30.0, a * c, a * s)), expected, error) << share;
+    EXPECT_NEAR(correlation(here, gaussians(model, 30.0, a * c, a * s)), expected, error) << share;
     const double b = share * model.across;
-    EXPECT_NEAR(mean_product(here, gaussians(model, 30.0, -b * s, b * c)), expected, error)
-        << share;
+    EXPECT_NEAR(correlation(here, gaussians(model, 30.0, -b * s, b * c)), expected, error) << share;
   }
 }
 

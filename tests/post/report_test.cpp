@@ -45,7 +45,7 @@ PageRows table_of(const std::string& page, const std::string& name) {
     auto& cells = rows.emplace_back();
     const std::string text = row[1];
     for (const auto& cell :
-         matches(text, "<td(?: class=\"number\" data-value=\"([^\"]*)\")?>([^<]*)</td>")) {
+         matches(text, "<td(?: class=\"(?:empty|number\" data-value=\"([^\"]*))\")?>([^<]*)</td>")) {
       cells.push_back({cell[2], parse_number(cell[1].str())});
     }
   }
