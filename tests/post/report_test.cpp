@@ -44,8 +44,8 @@ PageRows table_of(const std::string& page, const std::string& name) {
   for (const auto& row : matches(table, "<tr>(.*)</tr>")) {
     auto& cells = rows.emplace_back();
     const std::string text = row[1];
-    for (const auto& cell :
-         matches(text, "<td(?: class=\"(?:empty|number\" data-value=\"([^\"]*))\")?>([^<]*)</td>")) {
+    for (const auto& cell : matches(
+             text, "<td(?: class=\"(?:empty|number\" data-value=\"([^\"]*))\")?>([^<]*)</td>")) {
       cells.push_back({cell[2], parse_number(cell[1].str())});
     }
   }
