@@ -19,6 +19,7 @@ PARAMETERS = {
     "normal": ({"mean", "deviation"}, {"min", "max"}),
     "lognormal": ({"mean", "deviation"}, {"min", "max"}),
     "uniform": ({"min", "max"}, set()),
+    "integer": ({"min", "max"}, set()),  # whole numbers, such as seeds of random fields
 }
 DIGITS = 10
 
@@ -37,7 +38,9 @@ class Distribution:
         self.high = parameters.get("max", math.inf)
         if not self.low < self.high:
             raise ValueError("min below max")
-        if name != "uniform":
+        if name == "integer" and (self.low != int(self.low) or self.high != int(self.high)):
+            raise ValueError("whole numbers as min and max")
+        if name not in ("uniform", "integer"):
             self._set_normal(parameters["mean"], parameters["deviation"])
             if not self._share(self.low) < self._share(self.high):
                 raise ValueError("min and max where values lie")
@@ -63,6 +66,8 @@ class Distribution:
 
     def quantile(self, share):
         """The value below which this share of all values lies, 0 < share < 1."""
+        if self.name == "integer":
+            return int(self.low) + math.floor(share * (self.high - self.low + 1.0))
         if self.name == "uniform":
             return self.low + share * (self.high - self.low)
         low = self._share(self.low)
@@ -76,7 +81,8 @@ class Distribution:
         shares = [generator.random() or 2.0**-54 for _ in range(count)]
         if latin_hypercube:
             shares = [(stratum + share) / count for stratum, share in zip(strata(key, seed, count), shares)]
-        return [f"{self.quantile(share):.{DIGITS}g}" for share in shares]
+        digits = "d" if self.name == "integer" else f".{DIGITS}g"
+        return [format(self.quantile(share), digits) for share in shares]
 
 
 def strata(key, seed, count):

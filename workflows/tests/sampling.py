@@ -42,6 +42,18 @@ CASES = [
 ]
 
 
+def check_integers():
+    """All whole numbers, ends included, equally often; texts without a point."""
+    texts = Distribution("integer", {"min": 3.0, "max": 6.0}).sample("soil.a.field.seed", 1, 4000)
+    counts = {text: texts.count(text) for text in sorted(set(texts))}
+    expect("whole numbers drawn", ["3", "4", "5", "6"], list(counts))
+    for text, count in counts.items():
+        # Four standard errors of a count with the probability 1/4.
+        expect_near(f"draws of {text}", 1000, count, 4.0 * math.sqrt(4000 * 0.25 * 0.75))
+    large = Distribution("integer", {"min": 0.0, "max": 2147483647.0}).sample("soil.a.field.seed", 1, 50)
+    expect("large whole numbers", True, all(text.isdigit() for text in large))
+
+
 def check_distribution(name, parameters, density, low, high):
     what = f"{name} {parameters}"
     distribution = Distribution(name, parameters)
@@ -169,6 +181,7 @@ def message_of(path):
 if __name__ == "__main__":
     for case in CASES:
         check_distribution(*case)
+    check_integers()
     check_seeds()
     check_latin_hypercube()
     check_tables()
