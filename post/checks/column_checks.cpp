@@ -40,7 +40,8 @@ class ColumnChecks {
 
   void look_at(const ColumnState& state) {
     for (const GroundPlace<Dim>& place : lines_.ground()) {
-      const bool is_exit = flux_through(state, place) > 0.0;
+      // Air leaves through ground that is not saturated, not water.
+      const bool is_exit = is_saturated(state, place.element) && flux_through(state, place) > 0.0;
       const bool is_cover = lines_.region_of(place.element) == settings_.uplift.cover;
       if (is_exit || is_cover) look_below(state, place, is_exit, is_cover);
     }
@@ -54,6 +55,10 @@ class ColumnChecks {
   }
 
  private:
+  [[nodiscard]] static bool is_saturated(const ColumnState& state, int element) {
+    return state.saturation[element] > 1.0 - 1e-9;
+  }
+
   [[nodiscard]] double flux_through(const ColumnState& state, const GroundPlace<Dim>& place) const {
     double sum = 0.0;
     for (int d = 0; d < Dim; ++d) sum += state.flux[Dim * place.element + d] * place.outward[d];
@@ -89,9 +94,7 @@ class ColumnChecks {
       const LineSegment<Dim>& segment = line[i];
       column.depth += segment.length;
       column.total_stress += segment.length * bulk_weight(state, segment.element);
-      if (state.saturation[segment.element] > 1.0 - 1e-9) {
-        hydrostatic += segment.length * unit_weight_;
-      }
+      if (is_saturated(state, segment.element)) hydrostatic += segment.length * unit_weight_;
       const double stored = pressure_at(state, segment.element, segment.base_weights) - on_ground;
       // Without gravity pressures are those above the hydrostatic one.
       column.pressure = std::max(0.0, has_gravity_ ? stored : stored + hydrostatic);
