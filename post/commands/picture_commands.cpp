@@ -126,7 +126,9 @@ struct FigureCommandOptions {
 
 void declare_axes(CLI::App& command, AxisOptions& o) {
   CLI::Option_group* axes = command.add_option_group("axes of charts");
-  axes->add_option("--time-unit", o.time_unit, "of charts against time")
+  axes->add_option(
+          "--time-unit", o.time_unit,
+          "of charts against time; without it that which fits the run, or s with --x-range")
       ->type_name(time_unit_words());
   axes->add_option("--x-range", o.x_range, "ends of the axis")->type_name("LO:HI");
   axes->add_option("--y-range", o.y_range, "ends of the axis")->type_name("LO:HI");

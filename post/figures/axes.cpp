@@ -1,5 +1,6 @@
 #include "figures/axes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/errors.hpp"
@@ -21,9 +22,24 @@ std::array<double, 2> parse_range(const std::string& text, const std::string& co
   throw InputError(InputProblem{command, option, '"' + text + '"', "LO:HI with LO below HI"});
 }
 
+namespace {
+
+/// The unit of choice; without one s for a range of choice, otherwise one that fits the curves.
+TimeUnit unit_of_times(const AxisOptions& options, const std::string& command, const Chart& chart) {
+  if (!options.time_unit.empty()) return parse_time_unit(options.time_unit, command);
+  if (!options.x_range.empty()) return {};
+  double end = 0.0;
+  for (const Curve& curve : chart.curves) {
+    for (const double t : curve.x) end = std::max(end, t);
+  }
+  return fitting_time_unit(end);
+}
+
+}  // namespace
+
 void set_axes(const AxisOptions& options, const std::string& command, Chart& chart) {
-  if (!options.time_unit.empty() && chart.x_label == seconds_label) {
-    const TimeUnit unit = parse_time_unit(options.time_unit, command);
+  if (chart.x_label == seconds_label) {
+    const TimeUnit unit = unit_of_times(options, command, chart);
     const auto convert = [&](std::vector<double>& times) {
       for (double& t : times) t /= unit.seconds;
     };

@@ -12,7 +12,9 @@ namespace suffuse {
 /// The label of an axis of times in seconds.
 inline const std::string seconds_label = "time (s)";
 
-/// Applies the options to a chart. Throws InputError, naming `command`.
+/// Applies the options to a chart. Times get the unit that fits their length, or that of the
+/// options; with a range of the x-axis but no unit they stay in s. Throws InputError, naming
+/// `command`.
 void set_axes(const AxisOptions& options, const std::string& command, Chart& chart);
 
 /// Two numbers, `a:b` with a < b. Throws InputError, naming `command` and `option`.

@@ -10,7 +10,7 @@ namespace suffuse {
 
 /// Ends, scales and units of the axes of charts.
 struct AxisOptions {
-  std::string time_unit;  ///< unit of time in charts against time; empty: s
+  std::string time_unit;  ///< unit of time in charts; empty: that which fits
   bool log_x = false;
   bool log_y = false;
   std::string x_range;  ///< "a:b"; empty: the range of the values

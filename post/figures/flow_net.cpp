@@ -14,6 +14,7 @@
 #include "drawing/type_size.hpp"
 #include "figures/map_water.hpp"
 #include "physics/head.hpp"
+#include "values/fields.hpp"
 #include "values/snapshot_choice.hpp"
 
 namespace suffuse {
@@ -175,6 +176,7 @@ FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
   FlowNet net;
   const std::size_t index = chosen_snapshot(run, time, flow_net_command);
   net.map = head_map(run, time, flow_net_command);
+  net.map.title = snapshot_title(run, index, time, "Flow net");
   net.stream = stream_function(run, index, net.map.mesh, flow_net_command);
   const auto [lowest, highest] = head_range(net.map);
   const double fall = highest - lowest;

@@ -1,5 +1,7 @@
 #include "figures/profile.hpp"
 
+#include <functional>
+
 #include "common/errors.hpp"
 #include "drawing/color_map.hpp"
 #include "drawing/ticks.hpp"
@@ -8,6 +10,7 @@
 #include "values/refusal.hpp"
 #include "values/run_names.hpp"
 #include "values/sample.hpp"
+#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {
@@ -39,8 +42,18 @@ SampleRequest request_of(const ResultsReader& run, const FigureOptions& options)
   return request;
 }
 
-std::string time_label(double time, const TimeUnit& unit) {
-  return "t = " + tick_text(time / unit.seconds) + " " + unit.name;
+/// Labels of the curves of a run by their times.
+using TimeLabel = std::function<std::string(double time)>;
+
+TimeLabel time_label(const ResultsReader& run, const SampleRequest& request,
+                     const std::string& unit_name) {
+  if (!unit_name.empty()) {
+    const TimeUnit unit = parse_time_unit(unit_name, profile_command);
+    return [unit](double t) { return "t = " + tick_text(t / unit.seconds) + " " + unit.name; };
+  }
+  const double end = run.times().back();
+  const double spacing = least_spacing(request.times);
+  return [end, spacing](double t) { return "t = " + time_words(t, end, spacing); };
 }
 
 /// The column of the first field, behind time and place.
@@ -49,13 +62,13 @@ std::size_t first_field(const Table& table) {
 }
 
 void add_curves(const Table& table, const SampleRequest& request, const std::string& label,
-                const TimeUnit& unit, std::size_t before, std::size_t count,
+                const TimeLabel& time_label, std::size_t before, std::size_t count,
                 std::vector<Chart>& charts) {
   const std::size_t places = request.positions.size();
   for (std::size_t k = 0; k < charts.size(); ++k) {
     for (std::size_t i = 0; i < request.times.size(); ++i) {
       Curve curve = curve_at(before + i, count);
-      curve.label = label + time_label(request.times[i], unit);
+      curve.label = label + time_label(request.times[i]);
       for (std::size_t p = 0; p < places; ++p) {
         curve.x.push_back((request.positions[p] - request.positions[0]).norm());
         curve.y.push_back(table.columns[first_field(table) + k][i * places + p]);
@@ -73,8 +86,6 @@ std::vector<Chart> profile_charts(const std::vector<ResultsReader>& runs,
     refuse(profile_command, "--line", "nothing", "x0,y0:x1,y1 or x0,y0,z0:x1,y1,z1 in metres");
   if (options.fields.empty()) refuse(profile_command, "--fields", "nothing", "names of fields");
   const SampleNames names{profile_command, "--times", "--line", "--fields"};
-  const TimeUnit unit = parse_time_unit(
-      options.axes.time_unit.empty() ? "s" : options.axes.time_unit, profile_command);
   const std::vector<std::string> labels = run_labels(runs);
   std::vector<SampleRequest> requests;
   std::size_t count = 0;
@@ -100,7 +111,8 @@ std::vector<Chart> profile_charts(const std::vector<ResultsReader>& runs,
                         {}});
     }
     const std::string label = runs.size() > 1 ? labels[r] + ", " : "";
-    add_curves(table, requests[r], label, unit, before, count, charts);
+    add_curves(table, requests[r], label, time_label(runs[r], requests[r], options.axes.time_unit),
+               before, count, charts);
     before += requests[r].times.size();
   }
   if (options.measured.empty()) return charts;

@@ -274,7 +274,7 @@ FieldScale Frames::scale() {
 FieldPicture Frames::picture(std::size_t index) {
   const ScalarField& field = series_.at(index);
   FieldPicture picture;
-  picture.title = snapshot_title(results_, index, request_.time);
+  picture.title = snapshot_title(results_, index, request_.time, field_title(place_));
   picture.label = field_label(place_, field);
   picture.where = place_.where;
   picture.values = canvas_.mesh

@@ -118,10 +118,11 @@ void paint_bar(vtkContext2D& painter, const MapSheet& sheet, float left, float b
 }
 
 /// The common part of a head map and a saturation map.
-SeepageMap map_of(const ResultsReader& run, std::size_t index, const std::optional<double>& time) {
+SeepageMap map_of(const ResultsReader& run, std::size_t index, const std::optional<double>& time,
+                  const std::string& what) {
   const Scene& scene = run.scene().scene;
   SeepageMap map;
-  map.title = snapshot_title(run, index, time);
+  map.title = snapshot_title(run, index, time, what);
   map.mesh = run.mesh();
   map.pressure = run.field(index, "node", "pressure").values;
   const double weight = unit_weight(scene.liquid.density, scene.gravity);
@@ -180,7 +181,7 @@ std::array<double, 2> head_range(const SeepageMap& map) {
 SeepageMap head_map(const ResultsReader& run, const std::optional<double>& time,
                     const std::string& command) {
   const std::size_t index = chosen_snapshot(run, time, command);
-  SeepageMap map = map_of(run, index, time);
+  SeepageMap map = map_of(run, index, time, "Head");
   map.label = "head h (m)";
   map.air = elements_of_air(run, index, map.mesh);
   return map;
@@ -194,7 +195,7 @@ SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>&
                                   run.folder() + ", in which every soil is saturated",
                                   "a run with a soil that has a retention law"});
   }
-  SeepageMap map = map_of(run, index, time);
+  SeepageMap map = map_of(run, index, time, "Saturation");
   map.saturation = run.field(index, "cell", "saturation").values;
   map.label = "saturation S (-)";
   return map;

@@ -282,6 +282,7 @@ std::vector<Chart> over_time_charts(const SweepTable& sweep,
     chart.curves.push_back(quantiles.band());
     chart.curves.insert(chart.curves.end(), runs.begin(), runs.end());
     chart.curves.push_back(quantiles.middle("median"));
+    set_axes({}, "suffuse-post sweep", chart);
   }
   return charts;
 }

@@ -61,13 +61,12 @@ bool has_curve(const ResultsReader& run, const CurveColumn& column) {
 }
 
 std::string curve_html(const std::vector<ResultsReader>& runs, const CurveColumn& column,
-                       const TimeUnit& unit, const ScratchFolder& folder) {
+                       const ScratchFolder& folder) {
   for (const ResultsReader& run : runs) {
     if (!has_curve(run, column)) return "";
   }
   FigureOptions options;
   options.columns = {column.table + "." + column.column};
-  options.axes.time_unit = unit.name;
   const std::string path = (folder.path() / (column.column + ".png")).string();
   draw_figure("curves", runs, path, options);
   return "<figure>" + html::element("figcaption", column.title) +
@@ -108,11 +107,10 @@ std::array<double, 2> range_of(const ResultsReader& run, const FieldPlace& place
 std::string film_html(const ResultsReader& run, const std::vector<std::size_t>& snapshots,
                       const std::vector<std::string>& pictures, const std::string& title) {
   make_equal_size(pictures);
-  const TimeUnit unit = fitting_time_unit(run.times().back());
   std::string frames;
   std::string time;
   for (std::size_t k = 0; k < pictures.size(); ++k) {
-    time = html::escaped(time_text(run.times()[snapshots[k]], unit));
+    time = html::escaped(snapshot_time_words(run, snapshots[k]));
     const bool last = k + 1 == pictures.size();
     std::string attributes = last ? " class=\"frame last shown\"" : " class=\"frame\"";
     attributes.append(" data-time=\"").append(time).append("\"");
@@ -225,15 +223,8 @@ std::string model_html(const ResultsReader& run) {
 
 std::string curves_html(const std::vector<ResultsReader>& runs) {
   const ScratchFolder folder("suffuse-post");
-  double end = 0.0;
-  for (const ResultsReader& run : runs) {
-    const Table history = run.history();
-    if (history.rows() > 0) end = std::max(end, history.column("t").back());
-  }
   std::string charts;
-  for (const CurveColumn& column : curve_columns()) {
-    charts += curve_html(runs, column, fitting_time_unit(end), folder);
-  }
+  for (const CurveColumn& column : curve_columns()) charts += curve_html(runs, column, folder);
   if (charts.empty()) return html::element("p", "There are too few rows for curves yet.");
   return "<div class=\"charts\">" + charts + "</div>\n";
 }

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "common/errors.hpp"
-#include "files/number_text.hpp"
+#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {
@@ -38,13 +38,13 @@ std::string boundaries_text(const ResultsReader& results) {
     return text + "\n";
   };
   const bool flat = results.dimension() == 2;
-  std::string text =
-      results.folder() + ": " + results.status() +
-      ", since the start until t = " + number_text(boundaries.front().table.column("t").back()) +
-      " s" + (flat ? ", per metre of thickness\n" : "\n") +
-      line("", std::array{"water in", "water out", "fines in", "fines out", "liquid in",
-                          "liquid out", "discharge"}) +
-      line("", std::array{"kg", "kg", "kg", "kg", "m3", "m3", "m3/s"});
+  const double end = boundaries.front().table.column("t").back();
+  std::string text = results.folder() + ": " + results.status() +
+                     ", since the start until t = " + time_words(end, end, 1e-3 * end) +
+                     (flat ? ", per metre of thickness\n" : "\n") +
+                     line("", std::array{"water in", "water out", "fines in", "fines out",
+                                         "liquid in", "liquid out", "discharge"}) +
+                     line("", std::array{"kg", "kg", "kg", "kg", "m3", "m3", "m3/s"});
   std::array<double, columns.size()> sum{};
   for (const NamedTable& b : boundaries) {
     std::array<double, columns.size()> last{};

@@ -9,6 +9,7 @@
 #include "files/number_text.hpp"
 #include "files/tables.hpp"
 #include "tables/table_output.hpp"
+#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {
@@ -121,18 +122,20 @@ std::vector<Balance> balances(const ResultsReader& results) {
 std::string balance_text(const ResultsReader& results, const std::vector<Balance>& balances) {
   const Table ledger = results.ledger();
   const auto& t = ledger.column("t");
+  const TimeUnit unit = fitting_time_unit(t.back());
   std::string text = results.folder() + ": " + results.status() + ", " + std::to_string(t.size()) +
-                     " rows, t = " + number_text(t.front()) + " .. " + number_text(t.back()) +
-                     " s; masses in kg" +
+                     " rows, t = " + short_text(t.front() / unit.seconds) + " .. " +
+                     time_text(t.back(), unit) + "; masses in kg" +
                      (results.dimension() == 2 ? " per metre of thickness\n" : "\n");
   std::size_t longest = 6;
   for (const auto& b : balances) longest = std::max(longest, b.place.size());
   const int place = -static_cast<int>(longest) - 2;
   text += padded("place", place) + padded("", -8);
   for (const auto* head :
-       {"initial", "in", "out", "stored", "eroded", "deposited", "worst residual", "at t"}) {
+       {"initial", "in", "out", "stored", "eroded", "deposited", "worst residual"}) {
     text += padded(head, 15);
   }
+  text += padded("at t (" + unit.name + ")", 15);
   text += "\n";
   for (const auto& b : balances) {
     text += padded(b.place, place) + padded(b.constituent, -8);
@@ -143,7 +146,7 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
       text += padded(b.constituent == "water" ? "-" : short_number(mass, "%.8g"), 15);
     }
     text += padded(short_number(b.worst_residual, "%.2e"), 15);
-    text += padded(short_number(b.worst_time, "%.6g"), 15) + "\n";
+    text += padded(short_number(b.worst_time / unit.seconds, "%.6g"), 15) + "\n";
   }
   for (const auto& b : balances) {
     if (b.carried == 0.0) continue;

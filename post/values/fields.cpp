@@ -1,6 +1,7 @@
 #include "values/fields.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -58,6 +59,14 @@ std::string symbol_of(const std::string& name) {
       {"saturation", "S"},          {"hydraulic_gradient", "i"}, {"safety", "i_cr / i"}};
   const auto found = symbols.find(name);
   return found == symbols.end() ? "" : " " + found->second;
+}
+
+/// The name of a field in words.
+std::string words_of(const std::string& name) {
+  if (name == "darcy_flux") return "Darcy flux";
+  std::string words = name;
+  std::ranges::replace(words, '_', ' ');
+  return words;
 }
 
 }  // namespace
@@ -123,10 +132,17 @@ ScalarField read_scalar(const ResultsReader& results, std::size_t index, const F
   return scalar;
 }
 
+std::string field_title(const FieldPlace& place) {
+  std::string words = words_of(place.name);
+  if (place.change) return "Change of " + words + " since the start";
+  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  return words;
+}
+
 std::string field_label(const FieldPlace& place, const ScalarField& field) {
-  return std::string(field.is_vector ? "magnitude of " : "") +
-         (place.change ? "change since the start of " : "") + place.name + symbol_of(place.name) +
-         " (" + (field.unit == "1" || field.unit.empty() ? "-" : field.unit) + ")";
+  return std::string(place.change ? "change of " : "") + (field.is_vector ? "magnitude of " : "") +
+         words_of(place.name) + symbol_of(place.name) + " (" +
+         (field.unit == "1" || field.unit.empty() ? "-" : field.unit) + ")";
 }
 
 std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time) {
@@ -137,13 +153,21 @@ std::size_t snapshot_at(const ResultsReader& results, const std::optional<double
   return static_cast<std::size_t>(std::ranges::min_element(times, {}, distance) - times.begin());
 }
 
+std::string snapshot_time_words(const ResultsReader& results, std::size_t index) {
+  const auto& times = results.times();
+  const auto at = times.begin() + static_cast<std::ptrdiff_t>(index);
+  const auto first = index > 0 ? at - 1 : at;
+  const auto last = std::min(at + 2, times.end());
+  return time_words(times[index], times.back(), least_spacing({first, last}));
+}
+
 std::string snapshot_title(const ResultsReader& results, std::size_t index,
-                           const std::optional<double>& asked) {
+                           const std::optional<double>& asked, const std::string& what) {
   const double t = results.times()[index];
-  const TimeUnit unit = fitting_time_unit(results.times().back());
-  std::string title = results.scene().scene.name + ", t = " + time_text(t, unit);
+  std::string title = what + ", " + snapshot_time_words(results, index);
   if (asked && std::abs(*asked - t) > 1e-9 * std::max(1.0, std::abs(t))) {
-    title += " (snapshot nearest to " + time_text(*asked, unit) + ")";
+    title += " (snapshot nearest to " +
+             time_words(*asked, results.times().back(), std::abs(*asked - t)) + ")";
   }
   return title;
 }

@@ -41,14 +41,17 @@ struct ScalarField {
 /// Reads a field of the snapshot `index`. Throws FileError.
 ScalarField read_scalar(const ResultsReader& results, std::size_t index, const FieldPlace& place);
 
-/// "concentration c (-)", "magnitude of darcy_flux q (m/s)"
+/// "Fines left", "Change of porosity since the start"
+std::string field_title(const FieldPlace& place);
+/// "concentration c (-)", "magnitude of Darcy flux q (m/s)"
 std::string field_label(const FieldPlace& place, const ScalarField& field);
 
 /// The snapshot nearest to a time, s, or the last. Throws FileError where there is none yet.
 std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time);
-/// "NAME, t = 12 s", in a unit that fits the run, with the time asked for where the snapshot has
-/// another.
+/// "5 h 33 min": the time of a snapshot, told apart from those before and after it.
+std::string snapshot_time_words(const ResultsReader& results, std::size_t index);
+/// "WHAT, 5 h 33 min", with the time asked for where the snapshot has another.
 std::string snapshot_title(const ResultsReader& results, std::size_t index,
-                           const std::optional<double>& asked);
+                           const std::optional<double>& asked, const std::string& what);
 
 }  // namespace suffuse

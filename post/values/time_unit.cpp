@@ -1,5 +1,8 @@
 #include "values/time_unit.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "files/number_text.hpp"
 
 namespace suffuse {
@@ -20,6 +23,41 @@ TimeUnit fitting_time_unit(double end) {
 
 std::string time_text(double seconds, const TimeUnit& unit) {
   return short_text(seconds / unit.seconds) + " " + unit.name;
+}
+
+std::string time_words(double seconds, double end, double spacing) {
+  constexpr double year = 365.25 * 86400.0;
+  const TimeUnit coarsest = fitting_time_unit(end);
+  const double step = std::min(0.01 * std::abs(seconds), spacing);
+  if (!(step > 0.0)) return "0 " + coarsest.name;
+  if (coarsest.seconds >= year && step >= 1e-4 * seconds) return time_text(seconds, coarsest);
+  TimeUnit finest;
+  for (const TimeUnit& unit : time_units()) {
+    if (unit.seconds <= std::min(step, coarsest.seconds)) finest = unit;
+  }
+  const double power = std::pow(10.0, std::clamp(std::ceil(-std::log10(step)), 0.0, 15.0));
+  const double parts_per_second = finest.seconds > 1.0 ? 1.0 / finest.seconds : power;
+  double rest = std::round(seconds * parts_per_second);
+  std::string text;
+  const std::vector<TimeUnit>& units = time_units();
+  for (auto unit = units.rbegin(); unit != units.rend(); ++unit) {
+    if (unit->seconds > coarsest.seconds || unit->seconds < finest.seconds) continue;
+    const double size = unit->seconds * parts_per_second;
+    const bool last = unit->seconds == finest.seconds;
+    const double count = last ? rest / size : std::floor(rest / size + 1e-9);
+    rest -= count * size;
+    if (count > 0.0) text += (text.empty() ? "" : " ") + number_text(count) + " " + unit->name;
+  }
+  return text;
+}
+
+double least_spacing(std::vector<double> times) {
+  std::ranges::sort(times);
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    if (times[i + 1] > times[i]) least = std::min(least, times[i + 1] - times[i]);
+  }
+  return least;
 }
 
 }  // namespace suffuse

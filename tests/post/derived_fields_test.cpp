@@ -90,7 +90,7 @@ TEST_F(DerivedFields, ChangeIsSinceTheFirstSnapshot) {
   place.change = true;
   const ScalarField change = read_scalar(results(), 1, place);
   EXPECT_NEAR(change.values[4], 10.0, 1e-12);
-  EXPECT_EQ(field_label(place, change), "change since the start of pressure p (Pa)");
+  EXPECT_EQ(field_label(place, change), "change of pressure p (Pa)");
 }
 
 TEST_F(DerivedFields, LeastSafetyIsThatOfAllTimes) {

@@ -122,7 +122,9 @@ TEST_F(Render, VectorsShowTheirMagnitude) {
   const FieldPlace place = find_field(results, 0, "liquid_velocity", "liquid", "test");
   const ScalarField field = read_scalar(results, 0, place);
   EXPECT_NEAR(field.values.front(), 5e-3, 1e-17);
-  EXPECT_EQ(field_label(place, field), "magnitude of liquid_velocity v_L (m/s)");
+  EXPECT_EQ(field_title(place), "Liquid velocity");
+  EXPECT_EQ(field_title({"fines_left", "solid", true}), "Change of fines left since the start");
+  EXPECT_EQ(field_label(place, field), "magnitude of liquid velocity v_L (m/s)");
 }
 
 TEST_F(Render, StatesHaveNamesInsteadOfABar) {

@@ -268,6 +268,20 @@ TEST(ReportPictures, TimesHaveAUnitThatFits) {
   EXPECT_EQ(time_text(31557600.0, fitting_time_unit(1e9)), "1 a");
 }
 
+TEST(ReportPictures, TimesInWordsTellNeighboursApart) {
+  EXPECT_EQ(time_words(20000.0, 22000.0, 2500.0), "5 h 33 min");
+  EXPECT_EQ(time_words(20000.0, 22000.0, 10.0), "5 h 33 min 20 s");
+  EXPECT_EQ(time_words(20000.1, 22000.0, 0.1), "5 h 33 min 20.1 s");
+  EXPECT_EQ(time_words(18000.0, 22000.0, 2500.0), "5 h");
+  EXPECT_EQ(time_words(0.0, 22000.0, 2500.0), "0 h");
+  EXPECT_EQ(time_words(561600.0, 864000.0, 43200.0), "6 d 12 h");
+  EXPECT_EQ(time_words(3599.9, 22000.0, 600.0), "1 h");
+  EXPECT_EQ(time_words(120.0, 200.0, 2.0), "120 s");
+  EXPECT_EQ(time_words(2e-5, 1e-4, 1e-5), "2e-05 s");
+  EXPECT_EQ(time_words(12.5 * 365.25 * 86400.0, 1e9, 1e7), "12.5 a");
+  EXPECT_EQ(least_spacing({3.0, 1.0, 1.0, 2.5}), 0.5);
+}
+
 TEST(ReportText, IsEscaped) {
   EXPECT_EQ(html::escaped("a<b>\"c\"&'d'"), "a&lt;b&gt;&quot;c&quot;&amp;&#39;d&#39;");
 }

@@ -284,7 +284,7 @@ TEST(SeepageMap, TakesHeadsOfTheSnapshotAskedFor) {
   for (const double head : head_map(run, {}).head) EXPECT_NEAR(head, 12.0, 1e-12);
   const SeepageMap early = head_map(run, 2.0);
   for (const double head : early.head) EXPECT_NEAR(head, 2.0, 1e-12);
-  EXPECT_EQ(early.title, "synthetic, t = 0 s (snapshot nearest to 2 s)");
+  EXPECT_EQ(early.title, "Head, 0 s (snapshot nearest to 2 s)");
   EXPECT_EQ(saturation_map(run, {}).saturation.front(), 0.5);
   draw_figure("head", {run}, scratch / "head.png", {2.0, ""});
   EXPECT_GT(Pixels(scratch / "head.png").inked(), 8000);
@@ -298,8 +298,8 @@ TEST(SeepageMap, TitlesHaveTheUnitThatFitsTheRun) {
     for (const double t : {0.0, 864000.0}) writer.write_snapshot(testing::linear_snapshot(c, t, 0));
   }
   const ResultsReader run(scratch / "run.results");
-  EXPECT_EQ(snapshot_title(run, 1, {}), "synthetic, t = 10 d");
-  EXPECT_EQ(snapshot_title(run, 0, 43200.0), "synthetic, t = 0 d (snapshot nearest to 0.5 d)");
+  EXPECT_EQ(snapshot_title(run, 1, {}, "Head"), "Head, 10 d");
+  EXPECT_EQ(snapshot_title(run, 0, 43200.0, "Head"), "Head, 0 d (snapshot nearest to 12 h)");
 }
 
 TEST(SeepageMap, HasNoHeadsOfAir) {

@@ -417,7 +417,7 @@ TEST_F(Space, PicturesOfSurfaceCutAndLevels) {
   EXPECT_GT(testing::Pixels(r.output).color_count(), 100U);
   r.output = scratch / "cut.svg";
   render(run(), r);
-  EXPECT_NE(testing::file_text(r.output).find("box, t = 10 s, x = 0.3 m"), std::string::npos);
+  EXPECT_NE(testing::file_text(r.output).find(", 10 s, x = 0.3 m"), std::string::npos);
   r = request("porosity");
   r.levels = {0.35, 0.45};
   render(run(), r);

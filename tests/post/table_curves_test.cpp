@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "common/errors.hpp"
+#include "figures/axes.hpp"
 #include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
@@ -96,6 +97,22 @@ TEST_F(TableCurves, TimeIsInTheUnitOfChoice) {
   const Chart chart = make_figure("porosity", run(), options)[0];
   EXPECT_EQ(chart.x_label, "time (min)");
   EXPECT_EQ(chart.curves.back().x.back(), 2.0);
+}
+
+TEST_F(TableCurves, TimeIsInTheUnitThatFitsUnlessARangeIsGivenInSeconds) {
+  Chart chart{"", seconds_label, "", {}};
+  Curve curve;
+  curve.x = {0.0, 22000.0};
+  chart.curves.push_back(curve);
+  Chart hours = chart;
+  set_axes({}, "test", hours);
+  EXPECT_EQ(hours.x_label, "time (h)");
+  EXPECT_EQ(hours.curves[0].x[1], 22000.0 / 3600.0);
+  AxisOptions options;
+  options.x_range = "0:22000";
+  set_axes(options, "test", chart);
+  EXPECT_EQ(chart.x_label, seconds_label);
+  EXPECT_EQ(chart.curves[0].x[1], 22000.0);
 }
 
 TEST_F(TableCurves, MeasuredPointsLieBesideThem) {
