@@ -25,6 +25,11 @@ Color viridis(double fraction) {
   return color;
 }
 
+Color region_color(std::size_t number, std::size_t count) {
+  if (count < 2) return viridis(0.7);
+  return viridis(0.15 + 0.85 * static_cast<double>(number) / static_cast<double>(count - 1));
+}
+
 unsigned char byte_of(double part) {
   return static_cast<unsigned char>(std::lround(255.0 * part));
 }

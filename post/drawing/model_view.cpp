@@ -143,6 +143,22 @@ Edges region_edges(const Mesh<2>& mesh) {
   });
 }
 
+Outlines outlines(const Mesh<2>& mesh, const std::vector<bool>& is_open) {
+  Outlines lines;
+  for (const auto& [edge, elements] : elements_of_edges(mesh)) {
+    const int region = mesh.element_region[elements.front()];
+    const int other = mesh.element_region[elements.back()];
+    if (elements.size() == 1) {
+      (is_open[region] ? lines.open : lines.outer).push_back(edge);
+    } else if (is_open[region] != is_open[other]) {
+      lines.ground.push_back(edge);
+    } else if (region != other && !is_open[region]) {
+      lines.regions.push_back(edge);
+    }
+  }
+  return lines;
+}
+
 void paint_discs(vtkContext2D& painter, const ModelView& view,
                  const std::vector<Vector<2>>& positions, const std::vector<Color>& colors,
                  float diameter) {

@@ -15,13 +15,13 @@
 
 namespace suffuse {
 
-/// Layout of a picture of the model with a colour bar to its right, pixels.
+/// Layout of a picture of the model with a colour bar, pixels.
 struct PictureLayout {
   static constexpr float max_width = 1000.0F;  ///< largest size of the model
   static constexpr float max_height = 800.0F;
   static constexpr float gap = 40.0F;  ///< between the model and the bar
   static constexpr float bar_width = 30.0F;
-  static constexpr float min_bar_height = 340.0F;
+  static constexpr float min_bar_height = 340.0F;  ///< the bar of a lower map lies below it
   static constexpr int title_size = 24;
 
   /// Width of a picture that holds the title with room at both sides, pixels.
@@ -94,6 +94,16 @@ Edges all_edges(const Mesh<2>& mesh);
 Edges outer_edges(const Mesh<2>& mesh);
 /// Edges between elements of two regions.
 Edges region_edges(const Mesh<2>& mesh);
+
+/// The outlines of a model whose regions may be without soil.
+struct Outlines {
+  Edges outer;    ///< of soil, on the outer boundary
+  Edges regions;  ///< between soils
+  Edges ground;   ///< between soil and what is without soil
+  Edges open;     ///< of what is without soil, on the outer boundary
+};
+/// `is_open`: per region, whether it is without soil.
+Outlines outlines(const Mesh<2>& mesh, const std::vector<bool>& is_open);
 
 /// Paints discs of `diameter` pixels; `colors` has one colour per disc, or one for all.
 void paint_discs(vtkContext2D& painter, const ModelView& view,

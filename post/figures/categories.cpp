@@ -15,9 +15,7 @@ std::vector<Category> categories(const ResultsReader& results, const FieldPlace&
   if (place.name != "region") return regions;
   const auto count = results.regions().size();
   for (std::size_t r = 0; r < count; ++r) {
-    const double fraction =
-        count == 1 ? 0.7 : 0.15 + 0.85 * static_cast<double>(r) / static_cast<double>(count - 1);
-    regions.push_back({static_cast<double>(r), results.regions()[r], viridis(fraction)});
+    regions.push_back({static_cast<double>(r), results.regions()[r], region_color(r, count)});
   }
   return regions;
 }

@@ -16,6 +16,8 @@
 #include "drawing/type_size.hpp"
 #include "figures/arrows.hpp"
 #include "figures/map_water.hpp"
+#include "values/air.hpp"
+#include "values/point_cells.hpp"
 
 namespace suffuse {
 namespace {
@@ -23,11 +25,10 @@ namespace {
 using Layout = PictureLayout;
 constexpr Color mesh_color{0.55, 0.55, 0.55};
 constexpr Color stream_color{0.75, 0.0, 0.1};
-constexpr Color region_color{0.25, 0.25, 0.25};
+constexpr Color region_edge_color{0.25, 0.25, 0.25};
 constexpr float room_above_picture = 70.0F;
 /// Room for the text of a head next to a water level at the top of the view, pixels.
-constexpr float level_room = 30.0F;
-constexpr float bar_room = 215.0F;
+constexpr int level_room = 30;
 constexpr float contour_width = 1.2F;
 constexpr float stream_width = 1.8F;
 constexpr float path_width = 2.5F;
@@ -90,7 +91,7 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureM
   ColoredTriangles triangles;
   const auto add = [&](const auto& corners, const auto& colors) { triangles.add(corners, colors); };
   for (int e = 0; e < mesh.element_count(); ++e) {
-    if (model.visible[e] == 0) continue;
+    if (model.visible[e] == 0 || (!picture.air.empty() && picture.air[e])) continue;
     std::array<Vector<2>, 3> corners;
     for (int a = 0; a < 3; ++a) corners.at(a) = view.pixel(mesh.nodes[mesh.elements[e][a]]);
     add_divided(add, corners, corner_values(picture, mesh, e), picture.scale, division, flat);
@@ -98,42 +99,26 @@ void paint_elements(vtkContext2D& painter, const ModelView& view, const PictureM
   triangles.paint(painter);
 }
 
-/// Edges of elements are drawn if elements are large enough for the colours to be seen, and if no
-/// lines of the field are drawn.
+/// Edges of elements are drawn if elements are large enough for the colours to be seen, if no lines
+/// of the field are drawn, and not over points, which are no elements.
 bool shows_element_edges(const ModelView& view, const PictureModel& model,
                          const FieldPicture& picture) {
   const double pixels = double{view.width()} * view.height() /
                         static_cast<double>(std::max<std::ptrdiff_t>(1, model.visible_count));
   const bool lines = picture.contours || !picture.arrows.empty() || !picture.streamfunction.empty();
-  return picture.mesh_edges && pixels > 100.0 && !lines;
-}
-
-/// Diameter of discs, pixels. Discs do not touch in the smaller elements in view, so that the mesh
-/// and the background are seen between points.
-float disc_size(const ModelView& view, const PictureModel& model, std::size_t points) {
-  std::vector<double> areas;
-  for (int e = 0; e < model.mesh.element_count(); ++e) {
-    if (model.visible[e] != 0) areas.push_back(element_volume(model.mesh, e));
-  }
-  const auto quarter = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 4);
-  std::nth_element(areas.begin(), quarter, areas.end());
-  const double per_element =
-      std::max(1.0, static_cast<double>(points) / model.mesh.element_count());
-  return static_cast<float>(
-      std::clamp(0.6 * view.scale() * std::sqrt(*quarter / per_element), 2.0, 9.0));
+  return picture.mesh_edges && pixels > 100.0 && !lines && !picture.of_points();
 }
 
 void paint_points(vtkContext2D& painter, const ModelView& view, const PictureModel& model,
                   const FieldPicture& picture) {
-  std::vector<Vector<2>> positions;
-  std::vector<Color> colors;
-  for (std::size_t p = 0; p < picture.values.size(); ++p) {
-    const Vector<2>& x = picture.positions[p];
-    if ((x.array() < view.low().array()).any() || (x.array() > view.high().array()).any()) continue;
-    positions.push_back(x);
-    colors.push_back(picture.scale.color(picture.values[p]));
+  ColoredTriangles cells;
+  for (const PointCell& cell : point_cells(model.mesh, picture.positions, picture.volumes)) {
+    std::vector<Vector<2>> corners;
+    corners.reserve(cell.corners.size());
+    for (const Vector<2>& x : cell.corners) corners.push_back(view.pixel(x));
+    cells.add_polygon(corners, picture.scale.color(picture.values[cell.point]));
   }
-  paint_discs(painter, view, positions, colors, disc_size(view, model, picture.positions.size()));
+  cells.paint(painter);
 }
 
 /// Streamlines at whole multiples of the discharge of a tube, beginning with one half.
@@ -172,7 +157,8 @@ void paint_margins(vtkContext2D& painter, const ModelView& view, int width, int 
   for (const auto& s : sides) painter.DrawLine(s[0], s[1], s[2], s[3]);
 }
 
-std::vector<Curve> picture_legend_rows(const FieldPicture& picture, bool has_water) {
+std::vector<Curve> picture_legend_rows(const FieldPicture& picture, const Structures& structures,
+                                       bool has_water) {
   std::vector<Curve> rows;
   if (picture.contours) {
     rows.push_back(legend_line("line of equal " + picture.label, black, contour_width));
@@ -189,6 +175,7 @@ std::vector<Curve> picture_legend_rows(const FieldPicture& picture, bool has_wat
     rows.push_back(legend_line("streamlines, " + digits_text(picture.tube, 4) + " m3/s each", black,
                                path_width));
   }
+  add_structure_legend(rows, structures);
   add_water_legend(rows, false, has_water);
   return rows;
 }
@@ -201,27 +188,32 @@ struct Paper {
   int width = 0;
   int height = 0;
   bool flat = false;
+  float gap = 0.0F;  ///< between the model and what is at its right
 };
 
 void paint_map(vtkContext2D& painter, const Paper& sheet, const Arrows& arrows) {
-  const auto& [model, picture, view, width, height, flat] = sheet;
+  const auto& [model, picture, view, width, height, flat, gap] = sheet;
   if (!model.box) paint_outside_water(painter, view, picture.water);
   if (!picture.of_points()) paint_elements(painter, view, model, picture, flat);
   if (shows_element_edges(view, model, picture)) {
     paint_edges(painter, view, model.mesh, model.all_edges, mesh_color, 0.7F);
   }
   if (picture.of_points()) paint_points(painter, view, model, picture);
-  paint_edges(painter, view, model.mesh, model.region_edges, region_color, 1.5F);
+  paint_edges(painter, view, model.mesh, model.outlines.regions, region_edge_color, 1.5F);
+  paint_edges(painter, view, model.mesh, model.outlines.ground, region_edge_color, 1.0F);
+  paint_edges(painter, view, model.mesh, model.outlines.open, mesh_color, 1.0F);
   LineLabels labels(view);
   const auto streamlines = streamlines_of(model, picture);
   paint_edged_polylines(painter, view, streamlines, stream_color, white, stream_width);
   if (picture.contours) {
     const auto at_nodes = nodal_values(model.mesh, picture);
-    paint_contours(painter, view, {model.mesh, at_nodes, picture.scale.levels()},
-                   {black, contour_width}, labels);
+    const Mesh<2> mesh = without(model.mesh, picture.air);
+    paint_contours(painter, view, {mesh, at_nodes, picture.scale.levels()}, {black, contour_width},
+                   labels);
   }
   arrows.paint(painter);
-  paint_edges(painter, view, model.mesh, model.outer_edges, black, 1.5F);
+  paint_structures(painter, view, model.mesh, model.structures);
+  paint_edges(painter, view, model.mesh, model.outlines.outer, black, 1.5F);
   if (model.box) paint_margins(painter, view, width, height);
   view.paint_axes(painter, model.axes);
 }
@@ -257,8 +249,8 @@ SpaceDrawing space_drawing(const Paper& sheet) {
   if (!picture.hollow && shows_element_edges(view, model, picture)) {
     add_edges(model.all_edges, mesh_color, 0.7F);
   }
-  if (!picture.hollow) add_edges(model.region_edges, region_color, 1.5F);
-  add_edges(model.outer_edges, picture.hollow ? mesh_color : black, 1.5F);
+  if (!picture.hollow) add_edges(model.outlines.regions, region_edge_color, 1.5F);
+  add_edges(model.outlines.outer, picture.hollow ? mesh_color : black, 1.5F);
   return drawing;
 }
 
@@ -288,14 +280,34 @@ ModelView view_of(const PictureModel& model, const FieldPicture& picture, float 
           bottom,          Layout::max_width, Layout::max_height};
 }
 
+/// The layout of a picture with `legend` pixels of rows below the model, wide enough for its title.
+Paper paper_for(const PictureModel& model, const FieldPicture& picture, float legend,
+                const ColorBar& bar) {
+  const FieldScale& scale = picture.scale;
+  const bool by_kind = !scale.kinds.empty();
+  float bottom = axes_bottom + legend;
+  if (!by_kind) bottom += room_below(view_of(model, picture, 0.0F));
+  Paper paper{model, picture, view_of(model, picture, bottom)};
+  paper.gap = (model.space ? 2.0F : 1.0F) * Layout::gap;
+  const ModelView& view = paper.view;
+  const float side = by_kind ? kinds_width(scale, picture.label) : room_at_right(view, bar);
+  paper.width = static_cast<int>(
+      std::max(view.left() + view.width() + paper.gap + side, Layout::title_width(picture.title)));
+  const float kinds = by_kind ? kinds_height(scale) : 0.0F;
+  paper.height =
+      static_cast<int>(view.bottom() + std::max(view.height(), kinds) + room_above_picture);
+  return paper;
+}
+
 }  // namespace
 
-PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box) {
+PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box,
+                           std::vector<bool> is_open) {
   PictureModel model;
   model.mesh = mesh;
   model.all_edges = all_edges(mesh);
-  model.region_edges = region_edges(mesh);
-  model.outer_edges = outer_edges(mesh);
+  is_open.resize(mesh.region_names.size(), false);
+  model.outlines = outlines(mesh, is_open);
   model.box = box;
   for (const auto& nodes : mesh.elements) {
     bool is_visible = true;
@@ -330,8 +342,8 @@ PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector
     model.mesh.element_region.push_back(mesh.element_region[e]);
   }
   model.all_edges = all_edges(model.mesh);
-  model.region_edges = region_edges(model.mesh);
-  model.outer_edges = bent_edges(model.mesh, model.depth);
+  model.outlines.regions = region_edges(model.mesh);
+  model.outlines.outer = bent_edges(model.mesh, model.depth);
   for (int t = 0; t < model.mesh.element_count(); ++t) {
     model.visible.push_back(element_volume(model.mesh, t) > 0.0 ? 1 : 0);
     model.visible_count += model.visible.back();
@@ -370,25 +382,19 @@ std::vector<double> nodal_values(const Mesh<2>& mesh, const FieldPicture& pictur
 void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
                         const std::string& path) {
   const bool has_water = !picture.room.empty() && !model.box;
-  const std::vector<Curve> rows = picture_legend_rows(picture, has_water);
+  const std::vector<Curve> rows = picture_legend_rows(picture, model.structures, has_water);
   const float legend_height = legend_row * static_cast<float>(rows.size());
   const bool has_arrows = !picture.arrows.empty();
-  const float bottom = axes_bottom + legend_height + (has_arrows ? legend_row : 0.0F);
-  Paper sheet{model, picture, view_of(model, picture, bottom)};
+  const FieldScale& scale = picture.scale;
+  const bool by_kind = !scale.kinds.empty();
+  const ColorBar bar = by_kind ? ColorBar{} : bar_of(scale, picture.label);
+  Paper sheet = paper_for(model, picture, legend_height + (has_arrows ? legend_row : 0.0F), bar);
+  if (has_water) sheet.height += level_room;
+  sheet.width = std::max(
+      sheet.width, static_cast<int>(sheet.view.left() + Layout::gap + ChartLegend::width(rows)));
   sheet.flat = std::filesystem::path(path).extension() != ".png";
   const Arrows arrows(model.mesh, picture.arrows, sheet.view);
   const ModelView& view = sheet.view;
-  const FieldScale& scale = picture.scale;
-  const float right = view.left() + view.width() + (model.space ? 2.0F : 1.0F) * float{Layout::gap};
-  const bool by_kind = !scale.kinds.empty();
-  const float side = by_kind ? kinds_width(scale, picture.label) : bar_room;
-  const float bar_height = std::max(view.height(), Layout::min_bar_height);
-  // The picture is wide enough for a long title over a narrow model, and for the legend below.
-  const float legend = view.left() + ChartLegend::width(rows) + Layout::gap;
-  sheet.width = static_cast<int>(
-      std::max({right + side, Layout::title_width(picture.title), rows.empty() ? 0.0F : legend}));
-  sheet.height = static_cast<int>(view.bottom() + bar_height + room_above_picture +
-                                  (has_water ? level_room : 0.0F));
   SpaceDrawing space;
   if (model.space) space = space_drawing(sheet);
   const auto fill = [&](vtkContextScene& scene) {
@@ -406,9 +412,10 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
                    view.left() + 76.0F, y, Anchor::left);
       }
       if (by_kind) {
-        paint_kinds(painter, scale, picture.label, right, view.bottom() + view.height());
+        paint_kinds(painter, scale, picture.label, view.left() + view.width() + sheet.gap,
+                    view.bottom() + std::max(view.height(), kinds_height(scale)));
       } else {
-        paint_bar(painter, scale, picture.label, right, view.bottom(), bar_height);
+        paint_color_bar(painter, bar, view, sheet.gap);
       }
     });
     vtkNew<ChartLegend> lines;

@@ -10,6 +10,7 @@
 #include "drawing/model_view.hpp"
 #include "drawing/space.hpp"
 #include "figures/field_scale.hpp"
+#include "figures/map_water.hpp"
 #include "values/outside_water.hpp"
 #include "values/sheet.hpp"
 
@@ -22,8 +23,8 @@ using ViewBox = std::array<Vector<2>, 2>;
 struct PictureModel {
   Mesh<2> mesh;
   Edges all_edges;
-  Edges region_edges;
-  Edges outer_edges;
+  Outlines outlines;
+  Structures structures{};
   std::optional<ViewBox> box;        ///< unset: all of the model is shown
   std::vector<char> visible;         ///< per element: whether it reaches into the box
   std::ptrdiff_t visible_count = 0;  ///< number of visible elements
@@ -36,7 +37,9 @@ struct PictureModel {
     return {mesh.nodes[node][0], mesh.nodes[node][1], depth[node]};
   }
 };
-PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box);
+/// `is_open`: per region of the mesh, whether it is without soil; empty: none is.
+PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box,
+                           std::vector<bool> is_open = {});
 /// The outer edges of the result are those at which the surface bends.
 PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector<3>& upward);
 
@@ -59,6 +62,8 @@ struct FieldPicture {
   std::string where;                 ///< "cell", "node", "element_vertex", "solid" or "liquid"
   std::vector<double> values;        ///< at elements, nodes, vertices of elements or points
   std::vector<Vector<2>> positions;  ///< places of points; empty for fields of elements and nodes
+  std::vector<double> volumes;       ///< of points that move, m3 per metre of thickness; or empty
+  std::vector<bool> air{};           ///< elements of which nothing is shown; or empty
   FieldScale scale;
   std::vector<OutsideWater> water;
   std::vector<OutsideWater> room;  ///< water of all pictures of the run, for a common view
@@ -81,8 +86,8 @@ std::array<double, 3> corner_values(const FieldPicture& picture, const Mesh<2>& 
 /// Values at nodes of a field of elements or nodes: means over the elements around, by area.
 std::vector<double> nodal_values(const Mesh<2>& mesh, const FieldPicture& picture);
 
-/// Draws one colour per element, nodal and element-vertex fields in smooth colours, points as discs
-/// over the mesh. Throws InputError for an unknown suffix, FileError.
+/// Draws one colour per element, nodal and element-vertex fields in smooth colours, and
+/// what each point fills in its colour. Throws InputError for an unknown suffix, FileError.
 void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
                         const std::string& path);
 

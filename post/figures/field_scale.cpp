@@ -8,14 +8,12 @@
 #include <cstdio>
 
 #include "drawing/color_map.hpp"
-#include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/ticks.hpp"
 
 namespace suffuse {
 namespace {
 
-using Layout = PictureLayout;
 constexpr int bar_bands = 256;
 /// Values agree if they differ by less than this share of the larger end of the range.
 constexpr double agreement = 1e-9;
@@ -128,48 +126,28 @@ FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& re
   return scale;
 }
 
-void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string& label, float left,
-               float bottom, float height) {
-  painter.GetPen()->SetLineType(vtkPen::NO_PEN);
+ColorBar bar_of(const FieldScale& scale, const std::string& label) {
+  ColorBar bar{{}, false, {}, label, scale.notes};
   const int bands = scale.uniform ? 1 : bar_bands;
-  for (int band = 0; band < bands; ++band) {
-    const Color color = viridis((band + 0.5) / bands);
-    painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
-    const float step = height / static_cast<float>(bands);
-    painter.DrawRect(left, bottom + static_cast<float>(band) * step, Layout::bar_width, step);
-  }
-  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
-  painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
-  painter.GetPen()->SetWidth(1.5F);
-  std::size_t letters = 0;
+  for (int band = 0; band < bands; ++band) bar.bands.push_back(viridis((band + 0.5) / bands));
   const auto mark = [&](double value, const std::string& text) {
-    letters = std::max(letters, text.size());
-    const float y = bottom + height * static_cast<float>(scale.fraction(value));
-    painter.DrawLine(left + Layout::bar_width, y, left + Layout::bar_width + 8.0F, y);
-    paint_text(painter, text, 18, left + Layout::bar_width + 14.0F, y, Anchor::left);
+    bar.marks.push_back({scale.fraction(value), text});
   };
   const auto [low, high] = scale.range;
   mark(low, (scale.exceeds_low ? "<= " : "") + end_text(low, scale));
   if (!scale.uniform) mark(high, (scale.exceeds_high ? ">= " : "") + end_text(high, scale));
-  const double room = 24.0 / height;
-  for (const double level : scale.levels()) {
-    const double at = scale.fraction(level);
-    if (at > room && at < 1.0 - room) mark(level, scale.level_text(level));
-  }
-  paint_text(painter, label, 20,
-             left + Layout::bar_width + 50.0F + 10.5F * static_cast<float>(letters),
-             bottom + height / 2.0F, Anchor::center, 90.0);
-  float y = bottom - 30.0F;
-  for (const auto& note : scale.notes) {
-    paint_text(painter, note, 18, left, y, Anchor::left);
-    y -= 24.0F;
-  }
+  for (const double level : scale.levels()) mark(level, scale.level_text(level));
+  return bar;
 }
 
 float kinds_width(const FieldScale& scale, const std::string& label) {
   std::size_t letters = label.size();
   for (const auto& kind : scale.kinds) letters = std::max(letters, kind.name.size());
   return 60.0F + 11.0F * static_cast<float>(letters);
+}
+
+float kinds_height(const FieldScale& scale) {
+  return 36.0F + 34.0F * static_cast<float>(scale.kinds.size());
 }
 
 void paint_kinds(vtkContext2D& painter, const FieldScale& scale, const std::string& label,

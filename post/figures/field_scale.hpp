@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "drawing/color_bar.hpp"
 #include "figures/categories.hpp"
 
 namespace suffuse {
@@ -54,12 +55,12 @@ struct ScaleRequest {
 /// positive values.
 FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& request);
 
-/// The bar with its ticks, the label next to it, and notes below. Pixels.
-void paint_bar(vtkContext2D& painter, const FieldScale& scale, const std::string& label, float left,
-               float bottom, float height);
-/// Paints the legend of kinds; `kinds_width` is its width, pixels.
+/// The bar of a scale of numbers.
+ColorBar bar_of(const FieldScale& scale, const std::string& label);
+/// Paints the legend of kinds; `kinds_width` and `kinds_height` are its size, pixels.
 void paint_kinds(vtkContext2D& painter, const FieldScale& scale, const std::string& label,
                  float left, float top);
 float kinds_width(const FieldScale& scale, const std::string& label);
+float kinds_height(const FieldScale& scale);
 
 }  // namespace suffuse

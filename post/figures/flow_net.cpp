@@ -139,6 +139,7 @@ void paint_net(vtkContext2D& painter, const ModelView& view, const FlowNet& net,
   labels.avoid(streamlines);
   const Mesh<2> drawn = drawn_mesh(net.map);
   paint_contours(painter, view, {drawn, net.map.head, heads}, {black, potential_width}, labels);
+  paint_structures(painter, view, mesh, net.map.structures);
   paint_phreatic_lines(painter, view, phreatic);
   view.paint_axes(painter);
 }
@@ -201,6 +202,7 @@ void draw_flow_net(const FlowNet& net, const std::string& path) {
   const auto phreatic = phreatic_lines(drawn_mesh(net.map), net.map.pressure);
   std::vector<Curve> rows{legend_line("streamline", stream_blue, stream_width),
                           legend_line("equipotential, head in m", black, potential_width)};
+  add_structure_legend(rows, net.map.structures);
   add_water_legend(rows, !phreatic.empty(), !net.map.water.empty());
   const float caption_height = legend_row * static_cast<float>(net.caption.size());
   const float legend_height = legend_row * static_cast<float>(rows.size());

@@ -17,6 +17,8 @@ constexpr Color water_blue{0.0, 0.27, 0.53};
 constexpr Color water_tint{0.91, 0.96, 1.0};
 constexpr float phreatic_width = 3.5F;
 constexpr float level_width = 2.5F;
+constexpr Color well_red{0.8, 0.0, 0.0};
+constexpr float structure_width = 5.0F;
 /// Width of the water next to an upright boundary, as a share of the model's larger extent.
 constexpr double water_breadth = 0.08;
 
@@ -86,6 +88,37 @@ void paint_phreatic_lines(vtkContext2D& painter, const ModelView& view,
                           const std::vector<Polyline>& lines) {
   paint_polylines(painter, view, lines, white, phreatic_width + 3.0F);
   paint_polylines(painter, view, lines, water_blue, phreatic_width);
+}
+
+Structures structures(const Mesh<2>& mesh, const Scene& scene) {
+  Structures found;
+  for (const auto& set : mesh.boundaries) {
+    const auto is_this_well = [&](const BoundaryCondition& b) {
+      return b.is_well() && b.on == set.name;
+    };
+    if (std::ranges::find(scene.walls, set.name, &Wall::on) != scene.walls.end()) {
+      found.walls.insert(found.walls.end(), set.faces.begin(), set.faces.end());
+    } else if (std::ranges::any_of(scene.boundaries, is_this_well)) {
+      found.wells.insert(found.wells.end(), set.faces.begin(), set.faces.end());
+    }
+  }
+  return found;
+}
+
+void paint_structures(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
+                      const Structures& structures) {
+  for (const auto& [edges, color] :
+       {std::pair{&structures.walls, black}, std::pair{&structures.wells, well_red}}) {
+    paint_edges(painter, view, mesh, *edges, white, structure_width + 3.0F);
+    paint_edges(painter, view, mesh, *edges, color, structure_width);
+  }
+}
+
+void add_structure_legend(std::vector<Curve>& rows, const Structures& structures) {
+  if (!structures.walls.empty()) rows.push_back(legend_line("wall", black, structure_width));
+  if (!structures.wells.empty()) {
+    rows.push_back(legend_line("well or drain", well_red, structure_width));
+  }
 }
 
 Curve legend_line(const std::string& label, const Color& color, float width) {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The water that a map of the model shows: what stands outside, and the phreatic line.
+/// The water that a map of the model shows: what stands outside, and the phreatic line; walls and
+/// wells.
 
 #include <vtkContext2D.h>
 
@@ -34,6 +35,17 @@ void paint_outside_water(vtkContext2D& painter, const ModelView& view,
 std::vector<Polyline> phreatic_lines(const Mesh<2>& mesh, const std::vector<double>& pressure);
 void paint_phreatic_lines(vtkContext2D& painter, const ModelView& view,
                           const std::vector<Polyline>& lines);
+
+/// Walls and wells within a model.
+struct Structures {
+  Edges walls;
+  Edges wells;
+};
+Structures structures(const Mesh<2>& mesh, const Scene& scene);
+void paint_structures(vtkContext2D& painter, const ModelView& view, const Mesh<2>& mesh,
+                      const Structures& structures);
+/// Adds the lines for the walls and wells that there are.
+void add_structure_legend(std::vector<Curve>& rows, const Structures& structures);
 
 /// A line of a legend.
 Curve legend_line(const std::string& label, const Color& color, float width);

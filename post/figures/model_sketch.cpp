@@ -10,6 +10,7 @@
 #include "case/free_space.hpp"
 #include "common/errors.hpp"
 #include "drawing/chart_legend.hpp"
+#include "drawing/color_map.hpp"
 #include "drawing/model_view.hpp"
 #include "drawing/picture.hpp"
 #include "drawing/type_size.hpp"
@@ -26,14 +27,13 @@ namespace suffuse {
 namespace {
 
 constexpr Color white{1.0, 1.0, 1.0};
+constexpr Color mesh_grey{0.4, 0.4, 0.4};
 constexpr Color red{0.84, 0.0, 0.0};
 constexpr Color blue{0.1, 0.35, 0.9};
 /// Green and purple as in the paper, then others; impervious boundaries are orange.
 constexpr std::array<Color, 5> boundary_colors{
     {{0.0, 0.55, 0.25}, {0.55, 0.1, 0.6}, {0.0, 0.6, 0.75}, {0.75, 0.6, 0.0}, {0.35, 0.35, 0.35}}};
 constexpr Color impervious_color{0.95, 0.5, 0.1};
-constexpr std::array<Color, 4> soil_tints{
-    {{0.96, 0.90, 0.78}, {0.86, 0.84, 0.80}, {0.90, 0.94, 0.82}, {0.97, 0.86, 0.84}}};
 constexpr Color free_water_tint{0.86, 0.94, 1.0};
 constexpr float boundary_width = 6.0F;
 constexpr float max_width = 900.0F;
@@ -94,6 +94,14 @@ std::vector<std::array<int, Dim>> unnamed_faces(const Mesh<Dim>& mesh) {
   return rest;
 }
 
+/// The colour of the soil on maps of regions, light enough for the mesh and the points over it.
+Color soil_tint(int region, std::size_t count) {
+  constexpr double white_share = 0.55;
+  Color tint = region_color(static_cast<std::size_t>(region), count);
+  for (double& part : tint) part = white_share + (1.0 - white_share) * part;
+  return tint;
+}
+
 struct RegionTint {
   std::string label;
   Color color{};
@@ -103,11 +111,10 @@ template <int Dim>
 std::vector<RegionTint> region_tints(const ResultsReader& run, const Mesh<Dim>& mesh) {
   const Scene& scene = run.scene().scene;
   std::vector<RegionTint> tints;
-  std::size_t soils = 0;
   for (int r = 0; r < static_cast<int>(mesh.region_names.size()); ++r) {
     const std::string content = free_space_text(mesh, scene, r);
     tints.push_back({region_label(mesh, scene, r), content.empty()
-                                                       ? soil_tints.at(soils++ % soil_tints.size())
+                                                       ? soil_tint(r, mesh.region_names.size())
                                                    : content.starts_with("air") ? white
                                                                                 : free_water_tint});
   }
@@ -144,6 +151,14 @@ Curve marker_row(const std::string& label, const Color& color, Marker marker) {
   Curve row = line_row(label, color, 1.0F);
   row.markers = true;
   row.marker = marker;
+  return row;
+}
+
+/// The row of a region; white has a frame.
+Curve tint_row(const RegionTint& tint) {
+  const bool is_white = tint.color == white;
+  Curve row = marker_row(tint.label, is_white ? mesh_grey : tint.color, Marker::square);
+  row.hollow = is_white;
   return row;
 }
 
@@ -213,6 +228,33 @@ template std::string region_label(const Mesh<3>&, const Scene&, int);
 template std::vector<SketchedBoundary<2>> sketched_boundaries(const Mesh<2>&, const Scene&);
 template std::vector<SketchedBoundary<3>> sketched_boundaries(const Mesh<3>&, const Scene&);
 
+namespace {
+
+struct SketchLayout {
+  float legend_left;
+  float legend_top;
+  int width;
+  int height;
+};
+
+/// The legend is at the right of the model, or below one that is lower than the legend; then the
+/// view moves up.
+SketchLayout sketch_layout(const Mesh<2>& mesh, ModelView& view, const std::vector<Curve>& rows) {
+  const float legend_height = legend_row * static_cast<float>(rows.size());
+  const float legend_width = ChartLegend::width(rows) + legend_gap;
+  const float right = view.left() + view.width() + legend_gap;
+  const float top = view.bottom() + view.height();
+  if (legend_height <= view.height()) {
+    return {right, top, static_cast<int>(right + legend_width), static_cast<int>(top + title_room)};
+  }
+  view = ModelView(mesh, axes_left, axes_bottom + legend_height, max_width, max_height);
+  const auto width = static_cast<int>(std::max(right, axes_left + legend_width));
+  return {axes_left, legend_height + 6.0F, width,
+          static_cast<int>(top + legend_height + title_room)};
+}
+
+}  // namespace
+
 void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   if (run.times().empty()) throw FileError(run.folder() + ": has no snapshot yet");
   if (run.dimension() == 3) {
@@ -230,7 +272,7 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
   for (std::size_t b = 0; b < boundaries.size(); ++b) {
     rows.push_back(line_row(boundaries[b].label, boundary_color(boundaries, b), boundary_width));
   }
-  const ModelView view(mesh, axes_left, axes_bottom, max_width, max_height);
+  ModelView view(mesh, axes_left, axes_bottom, max_width, max_height);
   const float small = disc_diameter(view, mesh, std::max(liquid.size(), solid.size()));
   const bool shows_points = small > smallest_disc;
   rows.push_back(
@@ -241,15 +283,10 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
     rows.push_back(marker_row(count_text(liquid.size(), "liquid point"), blue, Marker::circle));
   }
   rows.push_back(line_row(count_text(mesh.elements.size(), "element"), black, 1.0F));
-  for (const auto& tint : tints) rows.push_back(marker_row(tint.label, tint.color, Marker::square));
-
-  const float legend_left = view.left() + view.width() + legend_gap;
-  const float legend_height = legend_row * static_cast<float>(rows.size());
-  const float shown_height = std::max(view.height(), legend_height);
-  const auto width = static_cast<int>(legend_left + ChartLegend::width(rows) + legend_gap);
-  const auto height = static_cast<int>(view.bottom() + shown_height + title_room);
+  for (const auto& tint : tints) rows.push_back(tint_row(tint));
+  const SketchLayout layout = sketch_layout(mesh, view, rows);
   const std::string title = title_of(run);
-  draw_picture(width, height, title, path, [&](vtkContextScene& scene) {
+  draw_picture(layout.width, layout.height, title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
       paint_tints(painter, view, mesh, tints);
       paint_edges(painter, view, mesh, all_edges(mesh), black, small < 5.0F ? 0.5F : 1.0F);
@@ -263,11 +300,11 @@ void draw_model_sketch(const ResultsReader& run, const std::string& path) {
         paint_discs(painter, view, solid, {red}, double_point ? 1.6F * small : small);
       }
       view.paint_axes(painter);
-      paint_text(painter, title, 24, static_cast<float>(width) / 2.0F,
-                 static_cast<float>(height) - 36.0F);
+      paint_text(painter, title, 24, static_cast<float>(layout.width) / 2.0F,
+                 static_cast<float>(layout.height) - 36.0F);
     });
     vtkNew<ChartLegend> legend;
-    legend->place(legend_left, view.bottom() + shown_height, shown_height, rows);
+    legend->place(layout.legend_left, layout.legend_top, layout.legend_top, rows);
     scene.AddItem(legend);
   });
 }
@@ -288,8 +325,8 @@ SpaceDrawing sketched_surface(const PictureModel& model, const ModelView& view,
     for (const auto& [i, j] : edges) drawing.add_line({at_node(i), at_node(j)}, black, width);
   };
   add_edges(model.all_edges, 0.5F);
-  add_edges(model.region_edges, 2.0F);
-  add_edges(model.outer_edges, 2.0F);
+  add_edges(model.outlines.regions, 2.0F);
+  add_edges(model.outlines.outer, 2.0F);
   return drawing;
 }
 
@@ -330,7 +367,7 @@ void draw_space_sketch(const ResultsReader& run, const std::string& path) {
   const auto tints = region_tints(run, mesh);
   std::vector<Curve> rows;
   const auto colors = surface_colors(mesh, surface, scene, tints, rows);
-  for (const auto& tint : tints) rows.push_back(marker_row(tint.label, tint.color, Marker::square));
+  for (const auto& tint : tints) rows.push_back(tint_row(tint));
   const bool double_point = is_double_point(run);
   const std::string points = double_point ? "solid point" : "material point";
   rows.push_back(line_row(count_text(run.point_positions<3>(0, "solid").size(), points), white, 0));

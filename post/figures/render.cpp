@@ -12,6 +12,7 @@
 #include "figures/categories.hpp"
 #include "figures/map_water.hpp"
 #include "files/number_text.hpp"
+#include "values/air.hpp"
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 #include "values/flow_paths.hpp"
@@ -34,6 +35,8 @@ constexpr std::size_t max_kept_values = 20'000'000;
 /// Values of this size are round-off, in any unit; those of a flux relative to the conductivity.
 constexpr double round_off = 1e-15;
 constexpr double flux_round_off = 1e-10;
+/// Changes of a field by less than this share of its largest value are round-off.
+constexpr double unchanged = 1e-9;
 
 std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
                                           const RenderRequest& request) {
@@ -83,6 +86,17 @@ struct Canvas {
   std::array<int, 2> axes{0, 1};  ///< of the model, along the coordinates of the picture
 };
 
+/// Per region: whether it is without soil.
+template <int Dim>
+std::vector<bool> open_regions(const ResultsReader& results, const Mesh<Dim>& mesh) {
+  std::vector<bool> open;
+  open.reserve(mesh.region_names.size());
+  for (const std::string& region : mesh.region_names) {
+    open.push_back(results.scene().scene.find_soil(region) == nullptr);
+  }
+  return open;
+}
+
 /// Throws InputError for options that do not apply to a model of this dimension.
 void check_dimension(const ResultsReader& results, const RenderRequest& request) {
   const bool in_space = results.dimension() == 3;
@@ -117,7 +131,12 @@ void check_dimension(const ResultsReader& results, const RenderRequest& request)
 
 Canvas make_canvas(const ResultsReader& results, const RenderRequest& request) {
   check_dimension(results, request);
-  if (results.dimension() == 2) return {picture_model(results.mesh(), request.view)};
+  if (results.dimension() == 2) {
+    const Mesh<2> mesh = results.mesh();
+    Canvas plane{picture_model(mesh, request.view, open_regions(results, mesh))};
+    plane.model.structures = structures(mesh, results.scene().scene);
+    return plane;
+  }
   Canvas canvas;
   canvas.mesh = results.mesh<3>();
   if (!request.cut) {
@@ -127,7 +146,8 @@ Canvas make_canvas(const ResultsReader& results, const RenderRequest& request) {
   }
   PlaneCut cut = plane_cut(*canvas.mesh, *request.cut, render_command);
   constexpr std::array<const char*, 3> names{"x (m)", "y (m)", "z (m)"};
-  canvas.model = picture_model(cut.mesh, request.view);
+  canvas.model = picture_model(cut.mesh, request.view, open_regions(results, cut.mesh));
+  canvas.model.structures = structures(cut.mesh, results.scene().scene);
   canvas.model.axes = {names.at(cut.axes[0]), names.at(cut.axes[1])};
   canvas.axes = cut.axes;
   canvas.sheet = std::move(cut.sheet);
@@ -152,7 +172,7 @@ void add_values(const PictureModel& model, const FieldPicture& picture,
     return;
   }
   for (int e = 0; e < model.mesh.element_count(); ++e) {
-    if (model.visible[e] == 0) continue;
+    if (model.visible[e] == 0 || (!picture.air.empty() && picture.air[e])) continue;
     const double area = element_volume(model.mesh, e);
     const auto corners = corner_values(picture, model.mesh, e);
     const bool has_one = picture.where == "cell";
@@ -188,7 +208,8 @@ class Frames {
         model_(canvas_.model),
         snapshots_(wanted_snapshots(results, request)),
         place_(wanted_place(results, snapshots_.front(), request)),
-        series_(results, place_) {}
+        series_(results, place_),
+        title_(field_title(place_)) {}
 
   std::vector<std::string> draw();
 
@@ -196,6 +217,8 @@ class Frames {
   void refuse_what_cannot_be_drawn() const;
   /// The colours, for the values of all snapshots.
   [[nodiscard]] FieldScale scale();
+  /// The elements of the model of which a snapshot shows nothing; or none.
+  [[nodiscard]] std::vector<bool> air(std::size_t index) const;
   /// The picture of a snapshot without lines and arrows.
   [[nodiscard]] FieldPicture picture(std::size_t index);
   void add_flow(FieldPicture& picture, std::size_t index) const;
@@ -214,6 +237,7 @@ class Frames {
   std::vector<std::size_t> snapshots_;
   FieldPlace place_;
   FieldSeries series_;
+  std::string title_;  ///< of all pictures, before the time
 };
 
 void Frames::refuse_what_cannot_be_drawn() const {
@@ -260,7 +284,13 @@ FieldScale Frames::scale() {
       for (const double value : series_.at(index).values) values.push_back({value, 1.0});
     }
   }
-  const double zero = round_off_of(results_, series_.at(snapshots_.front()).unit);
+  double zero = round_off_of(results_, series_.at(snapshots_.front()).unit);
+  if (place_.change) {
+    const FieldPlace itself{place_.name, place_.where};
+    for (const double value : read_scalar(results_, 0, itself).values) {
+      if (std::isfinite(value)) zero = std::max(zero, unchanged * std::abs(value));
+    }
+  }
   const auto is_positive = [&](const WeightedValue& v) { return v.value > zero; };
   if (request_.logarithmic && std::ranges::none_of(values, is_positive)) {
     refuse(render_command, "--log", '"' + place_.name + "\" without a value above zero",
@@ -271,17 +301,34 @@ FieldScale Frames::scale() {
                      {request_.range, request_.logarithmic, zero, of_points ? "points" : "area"});
 }
 
+std::vector<bool> Frames::air(std::size_t index) const {
+  if (!canvas_.mesh) return elements_of_air(results_, index, model_.mesh);
+  std::vector<bool> drawn;
+  if (model_.space) return drawn;  // the surface has no holes
+  const std::vector<bool> air = elements_of_air(results_, index, *canvas_.mesh);
+  drawn.reserve(canvas_.sheet.element.size());
+  for (const int e : canvas_.sheet.element) drawn.push_back(!air.empty() && air[e]);
+  return drawn;
+}
+
 FieldPicture Frames::picture(std::size_t index) {
   const ScalarField& field = series_.at(index);
   FieldPicture picture;
-  picture.title = snapshot_title(results_, index, request_.time, field_title(place_));
-  picture.label = field_label(place_, field);
+  picture.title = snapshot_title(results_, index, request_.time, title_);
+  picture.label =
+      categories(results_, place_).empty() ? field_label(place_, field) : field_title(place_);
   picture.where = place_.where;
   picture.values = canvas_.mesh
                        ? sheet_values(*canvas_.mesh, canvas_.sheet, place_.where, field.values)
                        : field.values;
   if (request_.cut) picture.title += ", " + cut_text(*request_.cut);
-  if (picture.of_points()) picture.positions = results_.point_positions(index, place_.where);
+  picture.air = air(index);
+  if (!picture.of_points()) return picture;
+  picture.positions = results_.point_positions(index, place_.where);
+  const auto names = results_.field_names(index, place_.where);
+  if (std::ranges::find(names, "volume") != names.end()) {
+    picture.volumes = results_.field(index, place_.where, "volume").values;
+  }
   return picture;
 }
 
@@ -358,6 +405,8 @@ std::string numbered(const std::string& path, std::size_t number) {
 std::vector<std::string> Frames::draw() {
   refuse_what_cannot_be_drawn();
   const FieldScale colors = scale();
+  const bool same = place_.change && colors.uniform && colors.range[1] == 0.0;
+  if (same) title_ = field_title({place_.name, place_.where}) + " has not changed since the start";
   std::vector<std::vector<OutsideWater>> waters;
   std::vector<OutsideWater> room;
   for (const std::size_t index : snapshots_) {

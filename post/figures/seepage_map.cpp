@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/free_space.hpp"
 #include "common/errors.hpp"
 #include "drawing/chart_legend.hpp"
+#include "drawing/color_bar.hpp"
 #include "drawing/color_map.hpp"
 #include "drawing/colored_triangles.hpp"
 #include "drawing/contours.hpp"
@@ -20,6 +20,7 @@
 #include "drawing/type_size.hpp"
 #include "figures/map_water.hpp"
 #include "physics/head.hpp"
+#include "values/air.hpp"
 #include "values/fields.hpp"
 #include "values/snapshot_choice.hpp"
 
@@ -28,7 +29,6 @@ namespace {
 
 using Layout = PictureLayout;
 constexpr float room_above_map = 100.0F;
-constexpr float bar_room = 190.0F;
 constexpr float line_width = 1.2F;
 
 /// The map, its place on the picture and the levels of its colours.
@@ -93,28 +93,15 @@ void paint_equipotentials(vtkContext2D& painter, const MapSheet& sheet,
   paint_contours(painter, sheet.view, {mesh, sheet.map.head, inner}, {black, line_width}, labels);
 }
 
-void paint_bar(vtkContext2D& painter, const MapSheet& sheet, float left, float bottom,
-               float height) {
+ColorBar bar_of(const SeepageMap& map, const MapSheet& sheet) {
+  ColorBar bar{{}, true, {}, map.label};
   const std::size_t bands = sheet.levels.size() - 1;
-  const float step = height / static_cast<float>(bands);
-  painter.GetPen()->SetColorF(0.0, 0.0, 0.0);
-  painter.GetPen()->SetWidth(1.0F);
-  for (std::size_t band = 0; band < bands; ++band) {
-    const Color color = sheet.band_color(band);
-    painter.GetBrush()->SetColorF(color[0], color[1], color[2]);
-    painter.DrawRect(left, bottom + static_cast<float>(band) * step, Layout::bar_width, step);
-  }
-  std::size_t letters = 0;
+  for (std::size_t band = 0; band < bands; ++band) bar.bands.push_back(sheet.band_color(band));
   for (std::size_t k = 0; k <= bands; ++k) {
-    const float y = bottom + static_cast<float>(k) * step;
-    const std::string text = tick_text(sheet.levels[k]);
-    letters = std::max(letters, text.size());
-    painter.DrawLine(left + Layout::bar_width, y, left + Layout::bar_width + 8.0F, y);
-    paint_text(painter, text, 18, left + Layout::bar_width + 14.0F, y, Anchor::left);
+    const double share = static_cast<double>(k) / static_cast<double>(bands);
+    bar.marks.push_back({share, tick_text(sheet.levels[k])});
   }
-  paint_text(painter, sheet.map.label, 20,
-             left + Layout::bar_width + 50.0F + 10.5F * static_cast<float>(letters),
-             bottom + height / 2.0F, Anchor::center, 90.0);
+  return bar;
 }
 
 /// The common part of a head map and a saturation map.
@@ -130,42 +117,15 @@ SeepageMap map_of(const ResultsReader& run, std::size_t index, const std::option
     map.head.push_back(map.pressure[i] / weight + height(map.mesh.nodes[i], scene.gravity));
   }
   map.water = water_outside(run, index, map.mesh);
+  map.structures = structures(map.mesh, scene);
   if (!has_gravity(scene.gravity)) map.pressure.clear();
   return map;
-}
-
-/// Per element: whether it is in a region without soil, no soil has moved into it, and it is less
-/// than half full of water; empty if there is no such region.
-std::vector<bool> elements_of_air(const ResultsReader& run, std::size_t index,
-                                  const Mesh<2>& mesh) {
-  const Scene& scene = run.scene().scene;
-  const auto is_open = [&](const std::string& region) { return can_hold_air(scene, region); };
-  if (std::ranges::none_of(mesh.region_names, is_open)) return {};
-  constexpr double soil_is_there = 0.99;  // porosity
-  const auto porosity = run.field(index, "cell", "porosity").values;
-  const auto saturation = run.field(index, "cell", "saturation").values;
-  std::vector<bool> air;
-  air.reserve(mesh.elements.size());
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    air.push_back(is_open(mesh.region_names[mesh.element_region[e]]) &&
-                  porosity[e] > soil_is_there && saturation[e] < 0.5);
-  }
-  return air;
 }
 
 }  // namespace
 
 Mesh<2> drawn_mesh(const SeepageMap& map) {
-  if (map.air.empty()) return map.mesh;
-  Mesh<2> drawn = map.mesh;
-  drawn.elements.clear();
-  drawn.element_region.clear();
-  for (int e = 0; e < map.mesh.element_count(); ++e) {
-    if (map.air[e]) continue;
-    drawn.elements.push_back(map.mesh.elements[e]);
-    drawn.element_region.push_back(map.mesh.element_region[e]);
-  }
-  return drawn;
+  return without(map.mesh, map.air);
 }
 
 std::array<double, 2> head_range(const SeepageMap& map) {
@@ -254,19 +214,22 @@ void draw_seepage_map(const SeepageMap& map, const std::string& path) {
   if (of_heads && levels.size() > 2) {
     rows.push_back(legend_line("equipotential, head in m", black, line_width));
   }
+  add_structure_legend(rows, map.structures);
   // Maps that are aligned have the same rows.
   const std::vector<OutsideWater>& room = map.covered_heads ? map.room : map.water;
   add_water_legend(rows, map.covered_heads ? !map.pressure.empty() : !phreatic.empty(),
                    !room.empty());
   const float legend_height = legend_row * static_cast<float>(rows.size());
-  const MapSheet sheet{map, view_with_water(map.mesh, room, axes_bottom + legend_height), levels};
+  const auto view_above = [&](float bottom) { return view_with_water(map.mesh, room, bottom); };
+  const float below = legend_height + room_below(view_above(0.0F));
+  const MapSheet sheet{map, view_above(axes_bottom + below), levels};
   const ModelView& view = sheet.view;
-  const float right = view.left() + view.width() + Layout::gap;
-  const float bar_height = std::max(view.height(), Layout::min_bar_height);
+  const ColorBar bar = bar_of(map, sheet);
+  const float right = view.left() + view.width() + Layout::gap + room_at_right(view, bar);
   const float title = Layout::title_width(map.title);
   const float legend = view.left() + ChartLegend::width(rows) + Layout::gap;
-  const auto width = static_cast<int>(std::max({right + bar_room, title, legend}));
-  const auto height = static_cast<int>(view.bottom() + bar_height + room_above_map);
+  const auto width = static_cast<int>(std::max({right, title, legend}));
+  const auto height = static_cast<int>(view.bottom() + view.height() + room_above_map);
   draw_picture(width, height, map.title, path, [&](vtkContextScene& scene) {
     add_painted(scene, [&](vtkContext2D& painter) {
       paint_outside_water(painter, view, map.water);
@@ -274,9 +237,10 @@ void draw_seepage_map(const SeepageMap& map, const std::string& path) {
       paint_edges(painter, view, map.mesh, region_edges(map.mesh), {0.25, 0.25, 0.25}, 1.0F);
       paint_equipotentials(painter, sheet, phreatic);
       paint_edges(painter, view, map.mesh, outer_edges(map.mesh), black, 1.5F);
+      paint_structures(painter, view, map.mesh, map.structures);
       paint_phreatic_lines(painter, view, phreatic);
       view.paint_axes(painter);
-      paint_bar(painter, sheet, right, view.bottom(), bar_height);
+      paint_color_bar(painter, bar, view, Layout::gap);
       paint_title(painter, map.title, width, height);
     });
     vtkNew<ChartLegend> lines;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "figures/map_water.hpp"
 #include "results/reader.hpp"
 #include "values/outside_water.hpp"
 
@@ -24,6 +25,7 @@ struct SeepageMap {
   std::vector<double> saturation;  ///< per element; coloured instead of heads; or empty
   std::vector<double> pressure;    ///< per node, Pa; empty: no phreatic line
   std::vector<OutsideWater> water;
+  Structures structures{};
   /// For aligned maps: range of heads that the colours cover too, m.
   std::optional<std::array<double, 2>> covered_heads{};
   std::vector<OutsideWater> room{};  ///< for aligned maps: there is room for this water too

@@ -102,7 +102,7 @@ TEST_F(Render, VertexFieldsAreSmooth) {
   }
 }
 
-TEST_F(Render, LiquidPointsAreDiscsOfTheirColour) {
+TEST_F(Render, LiquidPointsFillTheirElements) {
   auto r = request("pressure");
   r.on = "liquid";
   r.range = {{0.0, 71.0}};
@@ -112,7 +112,7 @@ TEST_F(Render, LiquidPointsAreDiscsOfTheirColour) {
     const auto x = c.liquid_points.position(c.mesh, p);
     expect_color(pixels.at(place(x[0], x[1])), viridis(p / 71.0), "point " + std::to_string(p));
   }
-  // Element 8 has no points: the ground between its edges is white.
+  // Element 8 has no points and is white.
   const auto dry = c.liquid_points.position(c.mesh, 24);
   expect_color(pixels.at(place(dry[0], dry[1])), {1.0, 1.0, 1.0}, "where there is no point");
 }
@@ -248,6 +248,62 @@ TEST_F(Render, ContoursLieOnRoundValuesAndStreamlinesBetweenTubes) {
     EXPECT_LT(least, 100) << y;
   }
   expect_color(at(0.93, 0.2), viridis(0.93), "between two");
+}
+
+TEST_F(Render, TheBarIsAsLongAsTheMapAndLiesBelowALowOne) {
+  Mesh<2> mesh = testing::unit_square_case().mesh;
+  const std::string path = scratch / "bar.png";
+  draw_field_picture(picture_model(mesh, {}), linear_picture(mesh), path);
+  const Pixels upright(path);
+  for (const double share : {0.02, 0.5, 0.98}) {
+    const Eigen::Vector2d at{axes_left + 800.0 + 55.0, axes_bottom + 800.0 * share};
+    expect_color(upright.at(at), viridis(share), "upright");
+  }
+  for (Vector<2>& x : mesh.nodes) x[1] *= 0.1;
+  draw_field_picture(picture_model(mesh, {}), linear_picture(mesh), path);
+  const Pixels lying(path);
+  EXPECT_LT(lying.height(), 400);
+  for (const double share : {0.02, 0.3, 0.98}) {
+    expect_color(lying.at(Eigen::Vector2d{axes_left + 1000.0 * share, 87.0}), viridis(share),
+                 "lying");
+  }
+}
+
+TEST_F(Render, WallsAndWellsAreDrawnAndNamed) {
+  const Mesh<2> mesh = testing::unit_square_case().mesh;
+  PictureModel model = picture_model(mesh, {});
+  const auto& nodes = mesh.elements[0];
+  model.structures.walls = {{nodes[0], nodes[1]}};
+  model.structures.wells = {{nodes[1], nodes[2]}};
+  const std::string path = scratch / "wall.png";
+  draw_field_picture(model, linear_picture(mesh), path);
+  const Pixels pixels(path);
+  const auto at = [&](int i, int j) {
+    const Vector<2> x = 0.5 * (mesh.nodes[i] + mesh.nodes[j]);
+    return pixels.at(Eigen::Vector2d{axes_left + 800.0 * x[0], axes_bottom + 60.0 + 800.0 * x[1]});
+  };
+  expect_color(at(nodes[0], nodes[1]), {0.0, 0.0, 0.0}, "wall");
+  expect_color(at(nodes[1], nodes[2]), {0.8, 0.0, 0.0}, "well");
+  draw_field_picture(model, linear_picture(mesh), scratch / "wall.svg");
+  const std::string svg = testing::file_text(scratch / "wall.svg");
+  for (const auto* text : {">wall<", ">well or drain<"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
+}
+
+TEST_F(Render, AFieldThatDidNotChangeSaysSo) {
+  auto r = request("erosion_rate");
+  r.change = true;
+  r.output = scratch / "same.svg";
+  render(run(), r);
+  EXPECT_NE(testing::file_text(r.output).find(">Erosion rate has not changed since the start, "),
+            std::string::npos);
+}
+
+TEST(ColorMap, RegionsDifferInGreyToo) {
+  for (std::size_t r = 0; r + 1 < 8; ++r) {
+    EXPECT_GT(luminance(region_color(r + 1, 8)), luminance(region_color(r, 8)) + 0.02) << r;
+  }
 }
 
 TEST_F(Render, ArrowsPointAlongTheFlux) {

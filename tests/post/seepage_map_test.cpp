@@ -9,6 +9,7 @@
 #include "common/errors.hpp"
 #include "drawing/contours.hpp"
 #include "figures/figures.hpp"
+#include "figures/render.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
 #include "values/fields.hpp"
@@ -220,10 +221,11 @@ TEST(SeepageMap, HasItsTextsLinesAndColours) {
   EXPECT_GT(svg.size(), 200000U);
   draw_seepage_map(map, scratch / "head.png");
   const Pixels pixels(scratch / "head.png");
-  // Pixels per metre; the downstream level ends 0.5 m outside the model.
+  // Pixels per metre; the downstream level ends 0.5 m outside the model, and 102 pixels below the
+  // axes are those of the bar.
   const double scale = 1000.0 / 36.5;
   const auto at = [&](double x, double y) {
-    return pixels.at(Eigen::Vector2d{110.0 + scale * x, 90.0 + 90.0 + scale * y});
+    return pixels.at(Eigen::Vector2d{110.0 + scale * x, 90.0 + 90.0 + 102.0 + scale * y});
   };
   const auto grey = [](const std::array<int, 3>& c) {
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
@@ -253,7 +255,7 @@ TEST(SeepageMap, OfSaturationIsDarkWhereItIsWet) {
   const Pixels pixels(scratch / "saturation.png");
   const double scale = 1000.0 / 36.5;
   const auto at = [&](double x, double y) {
-    return pixels.at(Eigen::Vector2d{110.0 + scale * x, 90.0 + 60.0 + scale * y});
+    return pixels.at(Eigen::Vector2d{110.0 + scale * x, 90.0 + 60.0 + 102.0 + scale * y});
   };
   EXPECT_LT(at(18.0, 1.0)[1] + 100, at(18.0, 7.0)[1]);
 }
@@ -340,6 +342,17 @@ TEST(SeepageMap, HasNoHeadsOfAir) {
   };
   EXPECT_EQ(at(0.33, 0.77), 3 * 255) << "air is left white";
   EXPECT_LT(at(0.33, 0.37), 700);
+  RenderRequest request;
+  request.field = "head";
+  request.time = 0.01;
+  request.output = scratch / "rendered.png";
+  render(run, request);
+  const Pixels rendered(request.output);
+  const auto inked = [&](double x, double y) {
+    return rendered.at(Eigen::Vector2d{110.0 + 800.0 * x, 90.0 + 800.0 * y})[0] < 255;
+  };
+  EXPECT_FALSE(inked(0.33, 0.77)) << "air is left white";
+  EXPECT_TRUE(inked(0.33, 0.37));
 }
 
 std::string refusal(const auto& body) {

@@ -1,0 +1,20 @@
+#pragma once
+
+/// The elements of a model that hold only air, of which maps show nothing.
+
+#include <vector>
+
+#include "results/reader.hpp"
+
+namespace suffuse {
+
+/// Per element: whether it is in a region without soil, no soil has moved into it, and it is less
+/// than half full of water; empty if there is no such region.
+template <int Dim>
+std::vector<bool> elements_of_air(const ResultsReader& run, std::size_t index,
+                                  const Mesh<Dim>& mesh);
+
+/// The mesh without these elements, with the same nodes.
+Mesh<2> without(const Mesh<2>& mesh, const std::vector<bool>& elements);
+
+}  // namespace suffuse
