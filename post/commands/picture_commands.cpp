@@ -26,6 +26,7 @@ struct FieldOptions {
   std::string view;
   std::string cut;
   std::string levels;
+  std::string camera;
 
   /// The request, with the values of the options that are given as text.
   [[nodiscard]] RenderRequest read() const {
@@ -33,6 +34,7 @@ struct FieldOptions {
     if (!range.empty()) result.range = parse_range(range);
     if (!view.empty()) result.view = parse_view(view);
     if (!cut.empty()) result.cut = parse_cut(cut, "suffuse-post render");
+    if (!camera.empty()) result.camera = parse_camera(camera);
     if (!levels.empty()) result.levels = parse_levels(levels);
     return result;
   }
@@ -62,6 +64,11 @@ void declare_field(CLI::App& command, FieldOptions& o) {
       .add_option("--cut", o.cut,
                   "of a model in space, the plane to show, m; without it the surface is shown")
       ->type_name("x=X|y=Y|z=Z");
+  command
+      .add_option("--camera", o.camera,
+                  "of a model in space: from where it is seen, degrees from the front to the right "
+                  "and above the horizon; without it 31,28.8")
+      ->type_name("AZIMUTH,ELEVATION");
   command.add_option("--iso", o.levels, "of a model in space: surfaces of equal values")
       ->type_name("VALUE,...");
 }

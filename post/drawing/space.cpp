@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "drawing/color_map.hpp"
 #include "drawing/picture.hpp"
@@ -24,8 +25,6 @@
 namespace suffuse {
 namespace {
 
-/// From the model to the viewer: to the right, to the front, upwards.
-const Vector<3> viewer(0.45, 0.75, 0.48);
 /// Lines are moved towards the viewer, in front of triangles, by this many pixels, and by as much
 /// again for each pixel of width, so that wide lines lie over narrow ones.
 constexpr double line_lift = 2.0;
@@ -72,7 +71,7 @@ struct Axis {
   Vector<3> outward;
 };
 
-/// Edges at the lower front, the lower right, and the left of the box.
+/// Edges at the lower front, the lower side that is seen, and the other end of the front.
 std::array<Axis, 3> axes_of(const SpaceBox& box) {
   int vertical = 0;
   box.view.up.cwiseAbs().maxCoeff(&vertical);
@@ -80,11 +79,13 @@ std::array<Axis, 3> axes_of(const SpaceBox& box) {
   const int across = 3 - vertical - depth;
   Vector<3> front = box.low;
   if (box.view.toward[depth] > 0.0) front[depth] = box.high[depth];
-  Vector<3> right = front;
-  right[across] = box.high[across];
+  const bool right_is_seen = box.view.toward[across] > 0.0;
+  const Vector<3> aside = Vector<3>::Unit(across) * (right_is_seen ? 1.0 : -1.0);
+  front[across] = right_is_seen ? box.low[across] : box.high[across];
+  Vector<3> side = front;
+  side[across] = right_is_seen ? box.high[across] : box.low[across];
   const Vector<3> forward = Vector<3>::Unit(depth) * (box.view.toward[depth] > 0.0 ? 1.0 : -1.0);
-  return {Axis{across, front, forward}, Axis{depth, right, Vector<3>::Unit(across)},
-          Axis{vertical, front, -Vector<3>::Unit(across)}};
+  return {Axis{across, front, forward}, Axis{depth, side, aside}, Axis{vertical, front, -aside}};
 }
 
 void paint_axis(vtkContext2D& painter, const ModelView& paper, const SpaceBox& box,
@@ -93,6 +94,8 @@ void paint_axis(vtkContext2D& painter, const ModelView& paper, const SpaceBox& b
   const auto on_paper = [&](const Vector<3>& x) { return box.view.project(x).head<2>().eval(); };
   const Vector<2> outward = on_paper(axis.outward).normalized();
   const double scale = paper.scale() * on_paper(Vector<3>::Unit(axis.along)).norm();
+  constexpr double shortest_axis = 20.0;  // pixels
+  if (scale * (box.high - box.low)[axis.along] < shortest_axis) return;
   const auto at = [&](double value, double distance) {
     Vector<3> x = axis.start;
     x[axis.along] = value;
@@ -115,13 +118,16 @@ void paint_axis(vtkContext2D& painter, const ModelView& paper, const SpaceBox& b
 
 }  // namespace
 
-SpaceView space_view(const Vector<3>& upward) {
+SpaceView space_view(const Vector<3>& upward, const Camera& camera) {
   const Vector<3> x = Vector<3>::UnitX();
   const bool lies = std::abs(upward.dot(x)) > 0.5;
   const Vector<3> across = lies ? Vector<3>::UnitY().eval() : x;
   const Vector<3> forward = across.cross(upward);
-  const Vector<3> toward =
-      (viewer[0] * across + viewer[1] * forward + viewer[2] * upward).normalized();
+  constexpr double degree = std::numbers::pi / 180.0;
+  const double azimuth = degree * camera.azimuth;
+  const double elevation = degree * camera.elevation;
+  const Vector<3> level = std::sin(azimuth) * across + std::cos(azimuth) * forward;
+  const Vector<3> toward = std::cos(elevation) * level + std::sin(elevation) * upward;
   const Vector<3> right = upward.cross(toward).normalized();
   return {right, toward.cross(right), toward};
 }

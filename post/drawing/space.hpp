@@ -1,6 +1,6 @@
 #pragma once
 
-/// Three-dimensional models on paper: a parallel view from the front, the right and above, and what
+/// Three-dimensional models on paper: a parallel view, and what
 /// is drawn in it, hidden where something lies in front.
 
 #include <vtkRenderer.h>
@@ -22,8 +22,14 @@ struct SpaceView {
     return {right.dot(x), up.dot(x), toward.dot(x)};
   }
 };
-/// The projection in which `upward`, an axis of the model, points upwards. x goes to the right.
-SpaceView space_view(const Vector<3>& upward);
+/// From where a model is seen, degrees.
+struct Camera {
+  double azimuth = 31.0;    ///< from the front to the right
+  double elevation = 28.8;  ///< above the horizon
+};
+/// The projection in which `upward`, an axis of the model, points upwards. From the front x goes to
+/// the right.
+SpaceView space_view(const Vector<3>& upward, const Camera& camera = {});
 
 /// The box around a model, whose edges carry the axes.
 struct SpaceBox {

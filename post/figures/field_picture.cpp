@@ -288,7 +288,7 @@ Paper paper_for(const PictureModel& model, const FieldPicture& picture, float le
   float bottom = axes_bottom + legend;
   if (!by_kind) bottom += room_below(view_of(model, picture, 0.0F));
   Paper paper{model, picture, view_of(model, picture, bottom)};
-  paper.gap = (model.space ? 2.0F : 1.0F) * Layout::gap;
+  paper.gap = (model.space ? 3.0F : 1.0F) * Layout::gap;  // in space with room for an axis
   const ModelView& view = paper.view;
   const float side = by_kind ? kinds_width(scale, picture.label) : room_at_right(view, bar);
   paper.width = static_cast<int>(
@@ -324,9 +324,10 @@ PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& bo
   return model;
 }
 
-PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector<3>& upward) {
+PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector<3>& upward,
+                         const Camera& camera) {
   PictureModel model;
-  SpaceBox box{space_view(upward), mesh.nodes.front(), mesh.nodes.front()};
+  SpaceBox box{space_view(upward, camera), mesh.nodes.front(), mesh.nodes.front()};
   for (const Vector<3>& x : mesh.nodes) {
     box.low = box.low.cwiseMin(x);
     box.high = box.high.cwiseMax(x);

@@ -41,7 +41,8 @@ struct PictureModel {
 PictureModel picture_model(const Mesh<2>& mesh, const std::optional<ViewBox>& box,
                            std::vector<bool> is_open = {});
 /// The outer edges of the result are those at which the surface bends.
-PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector<3>& upward);
+PictureModel space_model(const Mesh<3>& mesh, const Sheet& surface, const Vector<3>& upward,
+                         const Camera& camera = {});
 
 /// A triangle within a model in space, projected, m, and its colour.
 struct SpaceTriangle {

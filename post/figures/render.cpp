@@ -105,6 +105,10 @@ void check_dimension(const ResultsReader& results, const RenderRequest& request)
   if (!in_space && !request.levels.empty()) {
     refuse(render_command, "--iso", "a plane model", "--contours, or a model in space");
   }
+  if (request.camera && (!in_space || request.cut)) {
+    refuse(render_command, "--camera", in_space ? "it with --cut" : "a plane model",
+           "it with a model in space that is seen from outside");
+  }
   if (!in_space) return;
   if (request.streamlines && request.cut) {
     refuse(render_command, "--streamlines", "it with --cut",
@@ -141,7 +145,8 @@ Canvas make_canvas(const ResultsReader& results, const RenderRequest& request) {
   canvas.mesh = results.mesh<3>();
   if (!request.cut) {
     canvas.sheet = outer_sheet(*canvas.mesh);
-    canvas.model = space_model(*canvas.mesh, canvas.sheet, upward<3>(results.scene().scene));
+    canvas.model = space_model(*canvas.mesh, canvas.sheet, upward<3>(results.scene().scene),
+                               request.camera.value_or(Camera{}));
     return canvas;
   }
   PlaneCut cut = plane_cut(*canvas.mesh, *request.cut, render_command);
@@ -454,6 +459,20 @@ ViewBox parse_view(const std::string& text) {
   }
   refuse(render_command, "--view", '"' + text + '"',
          "x0,y0:x1,y1 with x0 below x1 and y0 below y1");
+}
+
+Camera parse_camera(const std::string& text) {
+  const auto comma = text.find(',');
+  if (comma != std::string::npos) {
+    const auto azimuth = parse_number(text.substr(0, comma));
+    const auto elevation = parse_number(text.substr(comma + 1));
+    if (azimuth && elevation && std::abs(*azimuth) <= 360.0 && *elevation >= 0.0 &&
+        *elevation <= 80.0) {
+      return {*azimuth, *elevation};
+    }
+  }
+  refuse(render_command, "--camera", '"' + text + '"',
+         "AZIMUTH,ELEVATION in degrees, from -360 to 360 and from 0 to 80");
 }
 
 std::vector<double> parse_levels(const std::string& text) {

@@ -34,6 +34,7 @@ struct RenderRequest {
   /// these `levels`; without either, its outer surface.
   std::optional<CutPlane> cut{};
   std::vector<double> levels{};
+  std::optional<Camera> camera{};  ///< of a model in space without a cut
   std::string output;  ///< NAME.png, .svg or .pdf; for several pictures NAME_0000.png and so on
 };
 
@@ -41,6 +42,8 @@ struct RenderRequest {
 std::array<double, 2> parse_range(const std::string& text);
 /// Reads `X0,Y0:X1,Y1` with X0 < X1 and Y0 < Y1. Throws InputError.
 ViewBox parse_view(const std::string& text);
+/// Reads `AZIMUTH,ELEVATION`. Throws InputError.
+Camera parse_camera(const std::string& text);
 /// Reads `V,V,...`. Throws InputError.
 std::vector<double> parse_levels(const std::string& text);
 

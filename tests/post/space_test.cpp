@@ -424,6 +424,28 @@ TEST_F(Space, PicturesOfSurfaceCutAndLevels) {
   EXPECT_GT(testing::Pixels(r.output).inked(), 10'000);
 }
 
+TEST_F(Space, TheCameraSaysFromWhereAModelIsSeen) {
+  const SpaceView right = space_view(Vector<3>::UnitZ(), {90.0, 0.0});
+  EXPECT_NEAR((right.toward - Vector<3>::UnitX()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((right.right - Vector<3>::UnitY()).norm(), 0.0, 1e-12);
+  RenderRequest r = request("porosity");
+  const auto width_from = [&](double azimuth) {
+    r.camera = Camera{azimuth, 0.0};
+    render(run(), r);
+    return testing::Pixels(r.output).width();
+  };
+  // The box is 1 m wide, 0.5 m deep and 0.75 m high: narrower from the right.
+  EXPECT_GT(width_from(0.0), width_from(90.0) + 400);
+  EXPECT_EQ(width_from(0.0), width_from(180.0));
+  EXPECT_EQ(parse_camera("120,30").azimuth, 120.0);
+  EXPECT_THROW((void)parse_camera("120,90"), InputError);
+  EXPECT_THROW((void)parse_camera("120"), InputError);
+  r.cut = CutPlane{0, 0.3};
+  EXPECT_EQ(refusal(r), command +
+                            ": --camera: got it with --cut; expected it with a model in space "
+                            "that is seen from outside");
+}
+
 TEST_F(Space, StreamlinesAreDrawn) {
   RenderRequest r = request("porosity");
   r.streamlines = true;
