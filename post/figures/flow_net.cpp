@@ -25,12 +25,12 @@ const std::string flow_net_command = "suffuse-post figure flownet";
 constexpr Color stream_blue{0.1, 0.35, 0.9};
 constexpr Color boundary_grey{0.45, 0.45, 0.45};
 constexpr float potential_width = 1.2F;
-constexpr float stream_width = 2.2F;
+constexpr float flow_net_width = 2.2F;
 constexpr float room_above_net = 100.0F;
 constexpr int max_tubes = 100;
 constexpr int max_drops = 200;
 /// The picture has a note if the misfit is larger than this.
-constexpr double noticed_misfit = 0.01;
+constexpr double noticed_net_misfit = 0.01;
 constexpr double noticed_weight = 0.001;
 
 /// Geometric mean of the conductivities of both directions, m/s: with it, fields are squares in a
@@ -106,7 +106,7 @@ std::vector<std::string> caption_of(const FlowNet& net, double fall) {
                   " tubes with " + digits_text(q / net.tubes, 4) + " m3/s per m each");
   lines.push_back("H = " + digits_text(fall, 4) + " m, N_d = " + std::to_string(net.drops) +
                   " drops of " + digits_text(fall / net.drops, 4) + " m");
-  if (net.stream.misfit > noticed_misfit) {
+  if (net.stream.misfit > noticed_net_misfit) {
     lines.push_back("The flow is not steady: streamlines miss " +
                     digits_text(100.0 * net.stream.misfit, 4) + " % of the flux");
   }
@@ -132,7 +132,7 @@ void paint_net(vtkContext2D& painter, const ModelView& view, const FlowNet& net,
   for (const double share : shares) {
     for (auto& line : level_lines({mesh, psi, shares}, share)) streamlines.push_back(line);
   }
-  paint_polylines(painter, view, streamlines, stream_blue, stream_width);
+  paint_polylines(painter, view, streamlines, stream_blue, flow_net_width);
   paint_edges(painter, view, mesh, outer_edges(mesh), black, 3.0F);
   LineLabels labels(view);
   labels.avoid(phreatic);
@@ -200,7 +200,7 @@ FlowNet flow_net(const ResultsReader& run, const std::optional<double>& time,
 
 void draw_flow_net(const FlowNet& net, const std::string& path) {
   const auto phreatic = phreatic_lines(drawn_mesh(net.map), net.map.pressure);
-  std::vector<Curve> rows{legend_line("streamline", stream_blue, stream_width),
+  std::vector<Curve> rows{legend_line("streamline", stream_blue, flow_net_width),
                           legend_line("equipotential, head in m", black, potential_width)};
   add_structure_legend(rows, net.map.structures);
   add_water_legend(rows, !phreatic.empty(), !net.map.water.empty());
