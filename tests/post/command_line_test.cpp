@@ -297,11 +297,12 @@ TEST_F(PostCommand, TableHasARowPerRun) {
 }
 
 TEST_F(PostCommand, UnknownField) {
-  expect_refusal(sample_start + "--time 10 --line 0.5,0:0.5,1 --count 3 --fields porosty", 2,
-                 "suffuse-post sample: --fields: got \"porosty\"; expected \"darcy_flux\", "
-                 "\"fines_fraction\", \"head\", \"liquid_velocity\", \"porosity\", "
-                 "\"pressure\", \"region\", \"saturation\" or \"water_fraction\"; did you "
-                 "mean porosity?");
+  expect_refusal(
+      sample_start + "--time 10 --line 0.5,0:0.5,1 --count 3 --fields porosty", 2,
+      "suffuse-post sample: --fields: got \"porosty\"; expected \"conductivity\", \"darcy_flux\", "
+      "\"fines_fraction\", \"head\", \"liquid_velocity\", \"porosity\", "
+      "\"pressure\", \"region\", \"saturation\" or \"water_fraction\"; did you "
+      "mean porosity?");
   EXPECT_FALSE(fs::exists(scratch / "s.csv"));
 }
 

@@ -367,7 +367,8 @@ TEST_F(Render, AnUnknownFieldListsWhatThereIsAndWhere) {
   expect_refusal(
       run(), request("concentratoin"),
       "suffuse-post render: --field: got \"concentratoin\"; expected one of the fields on cell: "
-      "\"concentration\", \"porosity\", \"region\", \"saturation\" or \"saturation_state\"; on "
+      "\"concentration\", \"conductivity\", \"porosity\", \"region\", \"saturation\" or "
+      "\"saturation_state\"; on "
       "node: "
       "\"concentration\" or \"liquid_velocity\"; on solid: \"erosion_rate\"; on liquid: "
       "\"concentration\", \"liquid_velocity\" or \"pressure\"; did you mean concentration?");

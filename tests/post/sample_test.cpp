@@ -112,12 +112,12 @@ TEST_F(DoublePointSample, FieldsOfPointsAreRefusedWithTheReason) {
     static_cast<void>(at("0.3,0:0.3,1", "pressure"));
     ADD_FAILURE() << "not refused";
   } catch (const InputError& error) {
-    EXPECT_EQ(
-        std::string(error.what()),
-        "suffuse-post sample: --fields: got \"pressure\", which lives on the liquid points; "
-        "expected a field on cell: \"concentration\", \"porosity\", \"region\", \"saturation\" "
-        "or \"saturation_state\"; on node: \"concentration\" or \"liquid_velocity\" "
-        "(suffuse-post render --on liquid shows it)");
+    EXPECT_EQ(std::string(error.what()),
+              "suffuse-post sample: --fields: got \"pressure\", which lives on the liquid points; "
+              "expected a field on cell: \"concentration\", \"conductivity\", \"porosity\", "
+              "\"region\", \"saturation\" "
+              "or \"saturation_state\"; on node: \"concentration\" or \"liquid_velocity\" "
+              "(suffuse-post render --on liquid shows it)");
   }
 }
 
