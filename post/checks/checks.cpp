@@ -35,8 +35,8 @@ std::vector<CheckRow> heave_checks(const ResultsReader& results) {
 /// Mechanisms that a report lacks, by phase.
 class Gaps {
  public:
-  Gaps(const ResultsReader& results, const CheckReport& report)
-      : scene_(results.scene().scene), rows_(report.rows) {}
+  Gaps(const ResultsReader& results, const CheckReport& report, const CheckSettings& settings)
+      : scene_(results.scene().scene), rows_(report.rows), settings_(settings) {}
 
   [[nodiscard]] std::vector<std::string> sentences() const {
     return {"initiation: " + initiation(), "continuation: " + continuation(),
@@ -54,10 +54,21 @@ class Gaps {
   [[nodiscard]] std::string initiation() const {
     std::string text = "concentrated leaks through cracks, contact erosion along joints";
     if (!has("erosion")) text += ", suffusion (no soil erodes)";
-    if (scene_.moves()) text += ", heave by EN 1997-1 (the soil moves)";
-    if (!has("uplift")) text += ", uplift of a cover (key check.uplift.cover)";
+    if (!has("heave")) text += ", heave (water rises at no boundary that it leaves through)";
+    if (!has("hyd-forces")) {
+      text += scene_.moves() ? ", heave by EN 1997-1 (the soil moves)"
+                             : ", heave by EN 1997-1 (water leaves through no ground)";
+    }
+    if (!has("uplift")) text += ", " + uplift();
     if (!has("blanket")) text += ", blanket theory (key check.blanket.aquifer)";
     return text;
+  }
+  [[nodiscard]] std::string uplift() const {
+    const std::string& cover = settings_.uplift.cover;
+    if (cover.empty()) return "uplift of a cover (key check.uplift.cover)";
+    return "uplift of \"" + cover + "\" (" +
+           (scene_.moves() ? "the soil moves)"
+                           : "it is nowhere the ground with water pressing below it)");
   }
   [[nodiscard]] std::string continuation() const {
     return has("filter") ? "filters between soils without a gradation"
@@ -70,6 +81,7 @@ class Gaps {
 
   const Scene& scene_;
   const std::vector<CheckRow>& rows_;
+  const CheckSettings& settings_;
 };
 
 std::string rounded_cell(double value) {
@@ -131,18 +143,24 @@ CheckSettings check_settings(const ResultsReader& results,
 
 CheckReport check_run(const ResultsReader& results, const CheckSettings& settings) {
   CheckReport report;
-  const auto add = [&](const std::vector<CheckRow>& rows) {
-    report.rows.insert(report.rows.end(), rows.begin(), rows.end());
+  // One check that cannot be made does not hide the others.
+  const auto add = [&](const auto& check) {
+    try {
+      const std::vector<CheckRow> rows = check();
+      report.rows.insert(report.rows.end(), rows.begin(), rows.end());
+    } catch (const InputError& error) {
+      report.refused.emplace_back(error.what());
+    }
   };
   if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
-  add(threshold_checks(results));
-  add(loss_checks(results));
-  add(heave_checks(results));
-  add(column_checks(results, settings));
-  add(blanket_checks(results, settings.blanket));
-  add(filter_checks(results));
-  add(backward_erosion_checks(results, settings.backward_erosion));
-  report.not_looked_at = Gaps(results, report).sentences();
+  add([&] { return threshold_checks(results); });
+  add([&] { return loss_checks(results); });
+  add([&] { return heave_checks(results); });
+  add([&] { return column_checks(results, settings); });
+  add([&] { return blanket_checks(results, settings.blanket); });
+  add([&] { return filter_checks(results); });
+  add([&] { return backward_erosion_checks(results, settings.backward_erosion); });
+  report.not_looked_at = Gaps(results, report, settings).sentences();
   return report;
 }
 
@@ -158,6 +176,7 @@ std::string check_text(const CheckReport& report) {
   }
   text += "not looked at:\n";
   for (const std::string& sentence : report.not_looked_at) text += "  " + sentence + "\n";
+  for (const std::string& message : report.refused) text += "  not possible: " + message + "\n";
   return text;
 }
 
@@ -196,6 +215,15 @@ void write_checks(const std::string& path, const CheckReport& report, int dimens
     if (!out) throw FileError(path + ": cannot be written");
   }
   file.commit();
+}
+
+void require_all_checks(const CheckReport& report) {
+  if (report.refused.empty()) return;
+  std::string messages;
+  for (const std::string& message : report.refused) {
+    messages += (messages.empty() ? "" : "\n") + message;
+  }
+  throw InputError(messages);
 }
 
 void require_limit_states(const CheckReport& report) {

@@ -14,13 +14,15 @@ struct CheckReport {
   std::vector<CheckRow> rows;
   /// Mechanisms that nothing here judges, by phase of a failure: "breach: overtopping, ...".
   std::vector<std::string> not_looked_at;
+  /// Why checks could not be made whose settings do not suit the model: messages.
+  std::vector<std::string> refused{};
 };
 
 /// The settings of the run's scene with some keys of [check] changed: `KEY=VALUE`. Throws
 /// InputError.
 CheckSettings check_settings(const ResultsReader& results, const std::vector<std::string>& changes);
 
-/// Throws FileError; InputError for settings that the model does not suit.
+/// Throws FileError.
 CheckReport check_run(const ResultsReader& results, const CheckSettings& settings);
 
 /// The rows as an aligned table, and what was not looked at.
@@ -36,5 +38,7 @@ void write_checks(const std::string& path, const CheckReport& report, int dimens
 /// Throws NumericalError, naming mechanism, place and time, if a limit state is passed: a factor
 /// below 1.
 void require_limit_states(const CheckReport& report);
+/// Throws InputError with the messages of checks that could not be made.
+void require_all_checks(const CheckReport& report);
 
 }  // namespace suffuse

@@ -41,7 +41,8 @@ class ColumnChecks {
   void look_at(const ColumnState& state) {
     for (const GroundPlace<Dim>& place : lines_.ground()) {
       // Air leaves through ground that is not saturated, not water.
-      const bool is_exit = is_saturated(state, place.element) && flux_through(state, place) > 0.0;
+      const bool is_exit = place.lets_water_out && is_saturated(state, place.element) &&
+                           flux_through(state, place) > 0.0;
       const bool is_cover = lines_.region_of(place.element) == settings_.uplift.cover;
       if (is_exit || is_cover) look_below(state, place, is_exit, is_cover);
     }
@@ -74,6 +75,14 @@ class ColumnChecks {
     return pressure;
   }
 
+  /// Pressure of the free water on the ground, which presses on soil and pores alike; without
+  /// gravity its datum.
+  [[nodiscard]] double pressure_on(const ColumnState& state, const GroundPlace<Dim>& place) const {
+    if (!place.bears_water) return 0.0;
+    const double pressure = pressure_at(state, place.element, place.weights);
+    return has_gravity_ ? std::max(0.0, pressure) : pressure;
+  }
+
   /// Weight of soil and water in an element, N/m3.
   [[nodiscard]] double bulk_weight(const ColumnState& state, int element) const {
     const Soil& soil = *scene_.find_soil(lines_.region_of(element));
@@ -85,8 +94,7 @@ class ColumnChecks {
 
   void look_below(const ColumnState& state, const GroundPlace<Dim>& place, bool is_exit,
                   bool is_cover) {
-    // Free water on the ground, which presses on soil and pores alike.
-    const double on_ground = std::max(0.0, pressure_at(state, place.element, place.weights));
+    const double on_ground = pressure_on(state, place);
     ColumnLoads column;
     double hydrostatic = 0.0;
     const auto line = lines_.below(place);
@@ -96,8 +104,8 @@ class ColumnChecks {
       column.total_stress += segment.length * bulk_weight(state, segment.element);
       if (is_saturated(state, segment.element)) hydrostatic += segment.length * unit_weight_;
       const double stored = pressure_at(state, segment.element, segment.base_weights) - on_ground;
-      // Without gravity pressures are those above the hydrostatic one.
-      column.pressure = std::max(0.0, has_gravity_ ? stored : stored + hydrostatic);
+      // Without gravity pressures are those above the hydrostatic one, from any datum.
+      column.pressure = has_gravity_ ? std::max(0.0, stored) : stored + hydrostatic;
       column.seepage_force = column.pressure - hydrostatic;
       column.weight = column.total_stress - hydrostatic;
       if (is_exit) {

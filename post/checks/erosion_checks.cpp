@@ -122,7 +122,8 @@ std::vector<CheckRow> loss_checks(const ResultsReader& results) {
     row.time = time;
     row.effect = lost;
     row.unit = "%";
-    row.note = erosion_class(lost) + ": " + short_text(lost) + " % of the dry mass";
+    row.note = lost < 0.0 ? "the soil has gained " + short_text(-lost) + " % of its dry mass"
+                          : erosion_class(lost) + ": " + short_text(lost) + " % of the dry mass";
     rows.push_back(row);
   }
   return rows;

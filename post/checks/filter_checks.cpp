@@ -1,5 +1,7 @@
 #include "checks/filter_checks.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "checks/face_vector.hpp"
@@ -10,42 +12,57 @@
 namespace suffuse {
 namespace {
 
-/// Volume that flows from one region into another, m3/s, by the numbers of the regions.
+/// Volume that flows from one region into another, m3/s, through all faces where it flows this way,
+/// by the numbers of the regions.
 using Exchanges = std::map<std::pair<int, int>, double>;
 
+/// Gradient up to which water counts as still: round-off.
+constexpr double still_gradient = 1e-9;
+/// Share of the largest flow between soils up to which a flow counts as none.
+constexpr double small_flow = 1e-6;
+
+/// A face between two regions.
 template <int Dim>
-Exchanges flows_between(const Mesh<Dim>& mesh, const std::vector<double>& flux) {
-  struct Side {
-    int element;
-    Vector<Dim> outward;
-  };
-  std::map<std::array<int, Dim>, Side> open;
-  Exchanges flows;
+struct Contact {
+  std::array<int, 2> element;
+  std::array<int, 2> region;
+  Vector<Dim> area;  ///< from the first to the second
+};
+
+template <int Dim>
+std::vector<Contact<Dim>> contacts(const Mesh<Dim>& mesh) {
+  std::map<std::array<int, Dim>, std::pair<int, int>> open;
+  std::vector<Contact<Dim>> found;
   for (int e = 0; e < mesh.element_count(); ++e) {
     for (int a = 0; a <= Dim; ++a) {
       const auto key = face_key<Dim>(face_opposite<Dim>(mesh.elements[e], a));
-      const auto found = open.find(key);
-      if (found == open.end()) {
-        open.emplace(key, Side{e, face_vector<Dim>(mesh, e, a)});
-        continue;
-      }
-      const Side side = found->second;
-      open.erase(found);
-      const int from = mesh.element_region[side.element];
-      const int to = mesh.element_region[e];
-      if (from == to) continue;
-      const auto q = [&](int element) {
-        return Vector<Dim>::Map(&flux[Dim * static_cast<std::size_t>(element)]);
-      };
-      const double volume = 0.5 * (q(side.element) + q(e)).dot(side.outward);
-      if (from < to) {
-        flows[{from, to}] += volume;
-      } else {
-        flows[{to, from}] -= volume;
-      }
+      const auto [other, is_new] = open.try_emplace(key, e, a);
+      if (is_new) continue;
+      const auto [element, corner] = other->second;
+      const std::array<int, 2> region{mesh.element_region[element], mesh.element_region[e]};
+      if (region[0] == region[1]) continue;
+      found.push_back({{element, e}, region, face_vector<Dim>(mesh, element, corner)});
     }
   }
-  return flows;
+  return found;
+}
+
+/// Keeps the largest flows of all snapshots.
+template <int Dim>
+void add_flows(const std::vector<Contact<Dim>>& faces, const std::vector<double>& flux,
+               const std::vector<double>& still, Exchanges& largest) {
+  Exchanges now;
+  for (const Contact<Dim>& face : faces) {
+    const auto q = [&](int element) {
+      return Vector<Dim>::Map(&flux[Dim * static_cast<std::size_t>(element)]);
+    };
+    const double volume = 0.5 * (q(face.element[0]) + q(face.element[1])).dot(face.area);
+    const double least = std::min(still[face.region[0]], still[face.region[1]]);
+    if (std::abs(volume) <= least * face.area.norm()) continue;
+    const auto [from, to] = face.region;
+    now[volume > 0.0 ? std::pair{from, to} : std::pair{to, from}] += std::abs(volume);
+  }
+  for (const auto& [pair, volume] : now) largest[pair] = std::max(largest[pair], volume);
 }
 
 std::string class_of(double d15, const ErosionBoundaries& boundaries) {
@@ -74,7 +91,15 @@ void add_pair(std::vector<CheckRow>& rows, const Soil& base, const Soil& filter)
     rows.push_back(row);
     return;
   }
-  const ErosionBoundaries boundaries = erosion_boundaries(base.gradation);
+  const auto known = erosion_boundaries(base.gradation);
+  if (!known) {
+    CheckRow row{.mechanism = "filter", .where = where, .clause = "Foster and Fell (2001)"};
+    row.note = "the gradation of " + base.region +
+               " begins above the sizes that decide, 0.075 mm and D85: not judged";
+    rows.push_back(row);
+    return;
+  }
+  const ErosionBoundaries& boundaries = *known;
   CheckRow row{.mechanism = "filter", .where = where, .clause = "Foster and Fell (2001)"};
   row.effect = *d15;
   row.resistance = boundaries.none;
@@ -90,7 +115,9 @@ void add_pair(std::vector<CheckRow>& rows, const Soil& base, const Soil& filter)
     rows.push_back(
         ratio_row("filter-retention", where, "D15F / D85B <= 4", *ratio, terzaghi_ratio));
   }
-  if (const auto ratio = drainage_ratio(base.gradation, filter.gradation)) {
+  // Soil that is finer than the base holds it, and is not there to drain it.
+  const auto ratio = drainage_ratio(base.gradation, filter.gradation);
+  if (ratio && *ratio > 1.0) {
     rows.push_back(ratio_row("filter-drainage", where, "D15F / D15B >= 4", terzaghi_ratio, *ratio));
   }
 }
@@ -99,21 +126,28 @@ void add_pair(std::vector<CheckRow>& rows, const Soil& base, const Soil& filter)
 
 std::vector<CheckRow> filter_checks(const ResultsReader& results) {
   const Scene& scene = results.scene().scene;
-  const std::size_t last = results.times().size() - 1;
-  const std::vector<double> flux = results.field(last, "cell", "darcy_flux").values;
-  const Exchanges flows =
-      with_mesh(results, [&](const auto& mesh) { return flows_between(mesh, flux); });
+  std::vector<const Soil*> soils;
+  std::vector<double> still;
+  for (const std::string& region : results.regions()) {
+    soils.push_back(scene.find_soil(region));
+    still.push_back(soils.back() == nullptr ? 0.0 : still_gradient * soils.back()->conductivity);
+  }
+  Exchanges flows;
+  with_mesh(results, [&](const auto& mesh) {
+    const auto faces = contacts(mesh);
+    for (std::size_t i = 0; i < results.times().size(); ++i) {
+      add_flows(faces, results.field(i, "cell", "darcy_flux").values, still, flows);
+    }
+  });
+  double largest = 0.0;
+  for (const auto& [pair, volume] : flows) largest = std::max(largest, volume);
   std::vector<CheckRow> rows;
   for (const auto& [pair, volume] : flows) {
-    const Soil* first = scene.find_soil(results.regions()[pair.first]);
-    const Soil* second = scene.find_soil(results.regions()[pair.second]);
-    if (first == nullptr || second == nullptr || volume == 0.0) continue;
-    if (first->gradation.empty() || second->gradation.empty()) continue;
-    if (volume > 0.0) {
-      add_pair(rows, *first, *second);
-    } else {
-      add_pair(rows, *second, *first);
-    }
+    const Soil* base = soils[pair.first];
+    const Soil* filter = soils[pair.second];
+    if (base == nullptr || filter == nullptr || volume <= small_flow * largest) continue;
+    if (base->gradation.empty() || filter->gradation.empty()) continue;
+    add_pair(rows, *base, *filter);
   }
   return rows;
 }

@@ -13,6 +13,12 @@ class RegradedBase {
       : base_(base),
         kept_(largest_size > base.smallest_size() ? base.finer(largest_size) : 100.0) {}
 
+  /// Whether the gradation says how much is fine, and where 85 % of the rest lies.
+  [[nodiscard]] bool is_known() const {
+    const bool unknown_below = base_.smallest_finer() > 0.0;
+    return !unknown_below ||
+           (largest_fine >= base_.smallest_size() && 0.85 * kept_ >= base_.smallest_finer());
+  }
   /// Size, mm, that a percentage of the rest is finer than: at least the first one known.
   [[nodiscard]] double size(double percent) const {
     const double finer = percent * kept_ / 100.0;
@@ -58,9 +64,11 @@ std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
 
 }  // namespace
 
-ErosionBoundaries erosion_boundaries(const Gradation& base) {
+std::optional<ErosionBoundaries> erosion_boundaries(const Gradation& base) {
   const RegradedBase regraded(base);
-  return {no_erosion(regraded), excessive_erosion(regraded), 9.0 * regraded.size(95.0)};
+  if (!regraded.is_known()) return std::nullopt;
+  return ErosionBoundaries{no_erosion(regraded), excessive_erosion(regraded),
+                           9.0 * regraded.size(95.0)};
 }
 
 std::optional<double> size_at(const Gradation& gradation, double percent) {

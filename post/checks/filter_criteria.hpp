@@ -23,7 +23,8 @@ struct ErosionBoundaries {
 ///
 /// none: Fell and others, Geotechnical Engineering of Dams, table 9.2 (of existing filters, without
 /// a margin). excessive, continuing: Foster and Fell (2001).
-ErosionBoundaries erosion_boundaries(const Gradation& base);
+/// Nothing where the gradation begins above the sizes that decide.
+std::optional<ErosionBoundaries> erosion_boundaries(const Gradation& base);
 
 /// Size that `percent` of the mass are finer than, mm; nothing where the gradation begins above
 /// that.

@@ -123,17 +123,24 @@ double mean_thickness(const Section& section, const PipePath& path, const std::s
   return sum / count;
 }
 
-/// Head of the boundaries' nodes that water stands or leaves at, m.
+/// Heads at the nodes of a boundary, m. Dry ground counts with its height: water leaves there at
+/// p = 0.
 double largest_head(const Section& section, const std::vector<double>& head,
                     const std::string& boundary) {
   double largest = -std::numeric_limits<double>::infinity();
   for (const int i : section.nodes_of(boundary)) largest = std::max(largest, head[i]);
   return largest;
 }
-double smallest_head(const Section& section, const std::vector<double>& head,
-                     const std::string& boundary) {
+double smallest_head(const ResultsReader& results, const Section& section,
+                     const std::vector<double>& head, const std::string& boundary) {
+  const auto& gravity = results.scene().scene.gravity;
   double smallest = std::numeric_limits<double>::infinity();
-  for (const int i : section.nodes_of(boundary)) smallest = std::min(smallest, head[i]);
+  for (const int i : section.nodes_of(boundary)) {
+    const double level = has_gravity(gravity)
+                             ? std::max(head[i], height(section.mesh().nodes[i], gravity))
+                             : head[i];
+    smallest = std::min(smallest, level);
+  }
   return smallest;
 }
 
@@ -222,8 +229,8 @@ std::vector<CheckRow> backward_erosion_checks(const ResultsReader& results,
   row.unit = "m";
   for (std::size_t i = 0; i < results.times().size(); ++i) {
     const std::vector<double> head = any_field(results, i, "node", "head").values;
-    const double difference =
-        largest_head(section, head, settings.entry) - smallest_head(section, head, settings.exit);
+    const double difference = largest_head(section, head, settings.entry) -
+                              smallest_head(results, section, head, settings.exit);
     if (!(difference > row.effect)) continue;
     row.effect = difference;
     row.time = results.times()[i];
@@ -263,8 +270,10 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   const auto first = std::ranges::find_if(line, [&](const LineSegment<2>& segment) {
     return section.lines().region_of(segment.element) == settings.aquifer;
   });
-  if (first == line.begin())
+  const double cover_at_toe = section.lines().length_in(line, settings.cover);
+  if (first == line.begin() || !(cover_at_toe > 0.0)) {
     refuse_setting(results, toe_key, "an aquifer without a cover", "a toe on the cover");
+  }
   const LineSegment<2>& above = *std::prev(first);
   ToeHeads worst;
   for (std::size_t i = 0; i < results.times().size(); ++i) {
@@ -274,9 +283,9 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
       for (int a = 0; a < 3; ++a) sum += weights[a] * head[section.mesh().elements[element][a]];
       return sum;
     };
-    // Dry ground does not lower the level at which water would leave.
-    const double ground =
-        std::max(at(toe.element, toe.weights), height(toe.position, scene.gravity));
+    // Only water that stands on the ground raises the level at which water would leave.
+    const double level = height(toe.position, scene.gravity);
+    const double ground = toe.bears_water ? std::max(at(toe.element, toe.weights), level) : level;
     const double river = largest_head(section, head, settings.entry) - ground;
     if (!(river > worst.river)) continue;
     worst = {results.times()[i], river, at(above.element, above.base_weights) - ground};
@@ -286,7 +295,7 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   const double excess = toe_share(blanket) * worst.river;
   const std::size_t last = results.times().size() - 1;
   row.time = worst.time;
-  row.effect = excess / blanket.landside.cover_thickness;
+  row.effect = excess / cover_at_toe;
   row.resistance = critical_gradient(results, last)[above.element];
   row.unit = "1";
   row.place = {toe.position[0], toe.position[1]};

@@ -21,16 +21,36 @@ constexpr double steepest_ground = 0.5;
 /// and along edges have no clear way from element to element.
 constexpr double off_middle = 1e-5;
 
+/// The conditions of the outer faces.
 template <int Dim>
-std::map<std::array<int, Dim>, std::string> boundary_of_face(const Mesh<Dim>& mesh,
-                                                             const Scene& scene) {
-  std::map<std::array<int, Dim>, std::string> names;
+std::map<std::array<int, Dim>, const BoundaryCondition*> condition_of_face(const Mesh<Dim>& mesh,
+                                                                           const Scene& scene) {
+  std::map<std::array<int, Dim>, const BoundaryCondition*> conditions;
   for (const BoundaryCondition& condition : scene.boundaries) {
     const auto set = std::ranges::find(mesh.boundaries, condition.on, &BoundarySet<Dim>::name);
     if (set == mesh.boundaries.end()) continue;
-    for (const auto& face : set->faces) names.emplace(face_key<Dim>(face), condition.on);
+    for (const auto& face : set->faces) conditions.emplace(face_key<Dim>(face), &condition);
+  }
+  return conditions;
+}
+
+/// Names of the walls and wells inside the mesh.
+std::vector<std::string> slits(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Wall& wall : scene.walls) names.push_back(wall.on);
+  for (const BoundaryCondition& condition : scene.boundaries) {
+    if (condition.is_well()) names.push_back(condition.on);
   }
   return names;
+}
+
+bool bears_water(const BoundaryCondition& condition) {
+  return condition.head.has_value() || condition.pressure.has_value();
+}
+
+bool lets_water_out(const BoundaryCondition& condition) {
+  return bears_water(condition) || condition.seepage_face || condition.rain.has_value() ||
+         condition.darcy_flux.has_value() || condition.velocity.has_value();
 }
 
 }  // namespace
@@ -51,42 +71,66 @@ template <int Dim>
 void VerticalLines<Dim>::find_neighbours() {
   neighbours_.resize(mesh_.elements.size());
   std::map<std::array<int, Dim>, std::pair<int, int>> first_owner;
+  const auto join = [&](const std::pair<int, int>& one, const std::pair<int, int>& other) {
+    neighbours_[one.first][one.second] = other.first;
+    neighbours_[other.first][other.second] = one.first;
+  };
   for (int e = 0; e < mesh_.element_count(); ++e) {
     neighbours_[e].fill(-1);
     for (int a = 0; a <= Dim; ++a) {
       const auto key = face_key<Dim>(face_opposite<Dim>(mesh_.elements[e], a));
       const auto [owner, is_new] = first_owner.try_emplace(key, e, a);
-      if (is_new) continue;
-      const auto& [other, corner] = owner->second;
-      neighbours_[e][a] = other;
-      neighbours_[other][corner] = e;
+      if (!is_new) join(owner->second, {e, a});
+    }
+  }
+  for (const std::string& name : slits(scene_)) {
+    const auto set = std::ranges::find(mesh_.boundaries, name, &BoundarySet<Dim>::name);
+    if (set == mesh_.boundaries.end()) continue;
+    for (std::size_t i = 0; i + 1 < set->faces.size(); i += 2) {
+      const auto one = first_owner.find(face_key<Dim>(set->faces[i]));
+      const auto other = first_owner.find(face_key<Dim>(set->faces[i + 1]));
+      if (one != first_owner.end() && other != first_owner.end()) join(one->second, other->second);
     }
   }
 }
 
 template <int Dim>
 void VerticalLines<Dim>::find_ground() {
-  const auto names = boundary_of_face<Dim>(mesh_, scene_);
+  const auto conditions = condition_of_face<Dim>(mesh_, scene_);
   for (int e = 0; e < mesh_.element_count(); ++e) {
     if (!is_soil(e)) continue;
     for (int a = 0; a <= Dim; ++a) {
       const int other = neighbour(e, a);
       if (other >= 0 && is_soil(other)) continue;
-      const Vector<Dim> normal = face_vector<Dim>(mesh_, e, a);
-      if (normal.dot(up_) < steepest_ground * normal.norm()) continue;
-      const auto face = face_opposite<Dim>(mesh_.elements[e], a);
-      Vector<Dim> middle = Vector<Dim>::Zero();
-      for (const int node : face) middle += mesh_.nodes[node] / Dim;
-      middle += off_middle * (mesh_.nodes[face[0]] - middle);
-      const auto name = names.find(face_key<Dim>(face));
-      ground_.push_back({e, middle, barycentric<Dim>(mesh_, e, middle), normal,
-                         name == names.end() ? "" : name->second});
+      const auto found = conditions.find(face_key<Dim>(face_opposite<Dim>(mesh_.elements[e], a)));
+      add_ground(e, a, found == conditions.end() ? nullptr : found->second);
     }
   }
 }
 
 template <int Dim>
+void VerticalLines<Dim>::add_ground(int element, int corner, const BoundaryCondition* condition) {
+  const Vector<Dim> normal = face_vector<Dim>(mesh_, element, corner);
+  if (normal.dot(up_) < steepest_ground * normal.norm()) return;
+  const auto face = face_opposite<Dim>(mesh_.elements[element], corner);
+  GroundPlace<Dim> place{
+      .element = element, .position = Vector<Dim>::Zero(), .weights = {}, .outward = normal};
+  for (const int node : face) place.position += mesh_.nodes[node] / Dim;
+  place.position += off_middle * (mesh_.nodes[face[0]] - place.position);
+  place.weights = barycentric<Dim>(mesh_, element, place.position);
+  if (condition != nullptr) {
+    place.boundary = condition->on;
+    place.bears_water = bears_water(*condition);
+    place.lets_water_out = lets_water_out(*condition);
+  } else if (neighbour(element, corner) >= 0) {  // free water
+    place.bears_water = place.lets_water_out = true;
+  }
+  ground_.push_back(place);
+}
+
+template <int Dim>
 std::optional<GroundPlace<Dim>> VerticalLines<Dim>::ground_at(double x) const {
+  std::optional<GroundPlace<Dim>> highest;
   for (const GroundPlace<Dim>& place : ground_) {
     // The middle of an edge lies halfway between its ends, which are as far off along x as the
     // level part of the normal says.
@@ -100,9 +144,9 @@ std::optional<GroundPlace<Dim>> VerticalLines<Dim>::ground_at(double x) const {
     const double rise = -place.outward.dot(along) / place.outward.dot(up_);
     moved.position += shift * (Vector<Dim>::Unit(0) + rise * up_);
     moved.weights = barycentric<Dim>(mesh_, place.element, moved.position);
-    return moved;
+    if (!highest || moved.position.dot(up_) > highest->position.dot(up_)) highest = moved;
   }
-  return std::nullopt;
+  return highest;
 }
 
 template <int Dim>

@@ -20,14 +20,17 @@ struct LineSegment {
   std::array<double, Dim + 1> base_weights;  ///< barycentric coordinates of its lower end
 };
 
-/// A place on the ground: a face of soil that looks up, with no soil above it.
+/// A place on the ground: a face of soil that looks up, with no soil above it. Walls and wells
+/// inside the soil are no ground; lines cross them.
 template <int Dim>
 struct GroundPlace {
   int element = 0;
   Vector<Dim> position;                 ///< m
   std::array<double, Dim + 1> weights;  ///< barycentric coordinates
   Vector<Dim> outward;                  ///< normal of the face, of any length
-  std::string boundary;                 ///< empty: the face is part of none
+  std::string boundary{};               ///< empty: the face is part of none
+  bool bears_water = false;             ///< water of a known pressure can stand on it
+  bool lets_water_out = false;          ///< impervious ground and walls do not
 };
 
 template <int Dim>
@@ -37,7 +40,7 @@ class VerticalLines {
 
   /// The middle of each face of the ground.
   [[nodiscard]] const std::vector<GroundPlace<Dim>>& ground() const { return ground_; }
-  /// The ground at x, m; nothing where there is none. In two dimensions.
+  /// The highest ground at x, m; nothing where there is none. In two dimensions.
   [[nodiscard]] std::optional<GroundPlace<Dim>> ground_at(double x) const;
   /// The line from a place on the ground down to the end of the soil, in order.
   [[nodiscard]] std::vector<LineSegment<Dim>> below(const GroundPlace<Dim>& place) const;
@@ -56,6 +59,7 @@ class VerticalLines {
   }
   void find_neighbours();
   void find_ground();
+  void add_ground(int element, int corner, const BoundaryCondition* condition);
 
   const Mesh<Dim>& mesh_;
   const Scene& scene_;

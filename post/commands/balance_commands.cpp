@@ -109,6 +109,7 @@ void check(const CheckOptions& o) {
     write_checks(o.csv, report, results.dimension());
   }
   if (o.least) check_safety(parts, *o.least);
+  require_all_checks(report);
   if (o.fail) require_limit_states(report);
 }
 

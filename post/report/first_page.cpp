@@ -60,7 +60,11 @@ std::string accuracy_html(const ResultsReader& run) {
 }
 
 std::string gaps_html(const RunNumbers& numbers) {
-  return numbers.checks ? html::list(numbers.checks->not_looked_at) : "";
+  if (!numbers.checks) return "";
+  std::vector<std::string> gaps = numbers.checks->not_looked_at;
+  for (const std::string& message : numbers.checks->refused)
+    gaps.push_back("not possible: " + message);
+  return html::list(gaps);
 }
 
 }  // namespace
@@ -74,19 +78,21 @@ std::string first_page(const ResultsReader& run, const RunNumbers& numbers) {
 
 std::string table_file_html(const std::string& path) {
   std::ifstream in(path);
-  if (!in) throw FileError(path + ": cannot be read");
+  if (!in || !std::filesystem::is_regular_file(path)) throw FileError(path + ": cannot be read");
   std::string line;
   html::Table table{"added", {}, {}};
   for (int number = 1; std::getline(in, line); ++number) {
     const std::vector<std::string> cells = csv_cells(line);
+    if (cells.size() == 1 && cells[0].empty()) continue;
     if (table.heads.empty()) {
       table.heads = cells;
       continue;
     }
     if (cells.size() != table.heads.size()) {
-      throw InputError(InputProblem{path + ":" + std::to_string(number), "--table",
-                                    std::to_string(cells.size()) + " cells",
-                                    std::to_string(table.heads.size()) + ", one for each name"});
+      throw InputError(
+          InputProblem{path + ":" + std::to_string(number), "--table",
+                       std::to_string(cells.size()) + (cells.size() == 1 ? " cell" : " cells"),
+                       std::to_string(table.heads.size()) + ", one for each name"});
     }
     auto& row = table.rows.emplace_back();
     for (const std::string& text : cells) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "common/errors.hpp"
 #include "files/number_text.hpp"
 #include "report/report_pictures.hpp"
 #include "values/derived_fields.hpp"
@@ -47,17 +46,13 @@ std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
   return text + ". ";
 }
 
-/// A report has no checks where the run has no gradients yet, or where the settings do not suit it.
+/// A report has no checks where the run has no gradients yet.
 void add_checks(const ResultsReader& run, RunNumbers& numbers) {
   if (!has_gradients(run)) {
     numbers.checks_refused = "these results have no hydraulic gradient";
     return;
   }
-  try {
-    numbers.checks = check_run(run, run.scene().scene.check);
-  } catch (const InputError& error) {
-    numbers.checks_refused = error.what();
-  }
+  numbers.checks = check_run(run, run.scene().scene.check);
 }
 
 }  // namespace

@@ -93,24 +93,24 @@ Gradation base(double fines, double d85, double d90, double d95) {
 }
 
 TEST(Filters, BoundariesAreThoseOfTheFourGroups) {
-  const ErosionBoundaries clay = erosion_boundaries(
+  const ErosionBoundaries clay = *erosion_boundaries(
       Gradation({{0.001, 0.0}, {0.06, 85.0}, {0.075, 90.0}, {0.2, 95.0}, {1.0, 100.0}}));
   EXPECT_NEAR(clay.none, 9.0 * 0.06, 1e-12);
   EXPECT_NEAR(*clay.excessive, 9.0 * 0.2, 1e-12);
   EXPECT_NEAR(clay.continuing, 9.0 * 0.2, 1e-12);
 
-  const ErosionBoundaries silty = erosion_boundaries(base(50.0, 0.5, 0.8, 1.5));
+  const ErosionBoundaries silty = *erosion_boundaries(base(50.0, 0.5, 0.8, 1.5));
   EXPECT_NEAR(silty.none, 0.7, 1e-12);
   EXPECT_NEAR(*silty.excessive, 9.0 * 0.8, 1e-12);
   EXPECT_NEAR(silty.continuing, 9.0 * 1.5, 1e-12);
-  EXPECT_FALSE(erosion_boundaries(base(50.0, 0.5, 1.0, 3.0)).excessive);
+  EXPECT_FALSE(erosion_boundaries(base(50.0, 0.5, 1.0, 3.0))->excessive);
 
   const double design = (35.0 - 25.0) / 20.0 * (4.0 * 1.0 - 0.7) + 0.7;
-  const ErosionBoundaries mixed = erosion_boundaries(base(25.0, 1.0, 2.0, 3.0));
+  const ErosionBoundaries mixed = *erosion_boundaries(base(25.0, 1.0, 2.0, 3.0));
   EXPECT_NEAR(mixed.none, 1.6 * design, 1e-12);
   EXPECT_NEAR(*mixed.excessive, 2.5 * design, 1e-12);
 
-  const ErosionBoundaries sand = erosion_boundaries(base(5.0, 1.0, 2.0, 3.0));
+  const ErosionBoundaries sand = *erosion_boundaries(base(5.0, 1.0, 2.0, 3.0));
   EXPECT_NEAR(sand.none, 7.0, 1e-12);
   EXPECT_NEAR(*sand.excessive, 9.0, 1e-12);
   EXPECT_NEAR(sand.continuing, 27.0, 1e-12);
@@ -119,7 +119,15 @@ TEST(Filters, BoundariesAreThoseOfTheFourGroups) {
 /// Half of this soil is gravel; without it 60 % of its grains are fines, not 30 %.
 TEST(Filters, LeaveGravelOutOfTheBase) {
   const Gradation moraine({{0.001, 0.0}, {0.075, 30.0}, {4.75, 50.0}, {50.0, 100.0}});
-  EXPECT_NEAR(erosion_boundaries(moraine).none, 0.7, 1e-12);
+  EXPECT_NEAR(erosion_boundaries(moraine)->none, 0.7, 1e-12);
+}
+
+/// Between 0 and 40 % of this base are fines: its group is not known.
+TEST(Filters, UnknownFinesAreNotNone) {
+  EXPECT_FALSE(erosion_boundaries(Gradation({{0.1, 40.0}, {1.0, 85.0}, {2.0, 100.0}})));
+  EXPECT_FALSE(erosion_boundaries(Gradation({{0.05, 90.0}, {2.0, 100.0}})));
+  EXPECT_TRUE(erosion_boundaries(Gradation({{0.05, 30.0}, {1.0, 85.0}, {2.0, 100.0}})));
+  EXPECT_TRUE(erosion_boundaries(Gradation({{0.1, 0.0}, {1.0, 85.0}, {2.0, 100.0}})));
 }
 
 TEST(Filters, TerzaghiComparesSizes) {
