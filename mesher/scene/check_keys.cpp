@@ -44,6 +44,7 @@ Declaration aquifer_end(const char* pattern, AquiferEnd Blanket::*member, const 
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): one list, which is read from top to bottom
 std::vector<SceneKey> check_keys() {
   const PartialFactors heave = CheckSettings{}.heave;
   const PartialFactors uplift = UpliftSettings{}.factors;

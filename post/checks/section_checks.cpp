@@ -198,6 +198,30 @@ BlanketSide side_of(const ResultsReader& results, const Section& section,
   return side;
 }
 
+/// The section of the theory, by the line below the landside toe. Throws InputError, naming the
+/// toe.
+BlanketSection blanket_section(const ResultsReader& results, const Section& section,
+                               const BlanketSettings& settings,
+                               const std::vector<LineSegment<2>>& line) {
+  const std::string table = "check.blanket";
+  const std::string toe_key = table + ".landside_toe";
+  const double towards_land = settings.landside_toe > settings.riverside_toe ? 1.0 : -1.0;
+  BlanketSection blanket;
+  blanket.base = std::abs(settings.landside_toe - settings.riverside_toe);
+  blanket.aquifer_thickness = section.lines().length_in(line, settings.aquifer);
+  blanket.aquifer_conductivity = results.scene().scene.find_soil(settings.aquifer)->conductivity;
+  blanket.riverside = side_of(results, section, settings, settings.riverside_toe, -towards_land,
+                              settings.riverside, table + ".riverside_toe");
+  blanket.landside = side_of(results, section, settings, settings.landside_toe, towards_land,
+                             settings.landside, toe_key);
+  if (!(blanket.aquifer_thickness > 0.0) || !blanket.landside.covered()) {
+    refuse_setting(results, toe_key, short_text(settings.landside_toe) + " m",
+                   "an x beyond which the aquifer \"" + settings.aquifer +
+                       "\" lies below the cover \"" + settings.cover + "\"");
+  }
+  return blanket;
+}
+
 /// The highest head at the landside toe, in the snapshots.
 struct ToeHeads {
   double time = unset;
@@ -247,25 +271,11 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   const std::string table = "check.blanket";
   const Section section(results, table);
   const Scene& scene = results.scene().scene;
-  const double towards_land = settings.landside_toe > settings.riverside_toe ? 1.0 : -1.0;
   const std::string toe_key = table + ".landside_toe";
   const GroundPlace<2> toe = section.ground_at(settings.landside_toe, toe_key);
   const auto line = section.lines().below(toe);
 
-  BlanketSection blanket;
-  blanket.base = std::abs(settings.landside_toe - settings.riverside_toe);
-  blanket.aquifer_thickness = section.lines().length_in(line, settings.aquifer);
-  blanket.aquifer_conductivity = scene.find_soil(settings.aquifer)->conductivity;
-  blanket.riverside = side_of(results, section, settings, settings.riverside_toe, -towards_land,
-                              settings.riverside, table + ".riverside_toe");
-  blanket.landside = side_of(results, section, settings, settings.landside_toe, towards_land,
-                             settings.landside, toe_key);
-  if (!(blanket.aquifer_thickness > 0.0) || !blanket.landside.covered()) {
-    refuse_setting(results, toe_key, short_text(settings.landside_toe) + " m",
-                   "an x beyond which the aquifer \"" + settings.aquifer +
-                       "\" lies below the cover \"" + settings.cover + "\"");
-  }
-
+  const BlanketSection blanket = blanket_section(results, section, settings, line);
   // The node of the aquifer's top nearest to the toe.
   const auto first = std::ranges::find_if(line, [&](const LineSegment<2>& segment) {
     return section.lines().region_of(segment.element) == settings.aquifer;

@@ -13,7 +13,7 @@ namespace suffuse {
 namespace {
 
 using Layout = PictureLayout;
-constexpr float tick = 8.0F;
+constexpr float bar_tick = 8.0F;
 constexpr float label_letter = 10.5F;
 /// Least distance between the texts of two marks, pixels.
 constexpr float between_marks = 12.0F;
@@ -44,7 +44,7 @@ void paint_lying(vtkContext2D& painter, const ColorBar& bar, const ModelView& vi
   const float bottom = view.bottom() - axes_bottom - Layout::bar_width;
   for (const BarMark& mark : marks_apart(bar, view.width(), true)) {
     const float x = view.left() + view.width() * static_cast<float>(mark.share);
-    painter.DrawLine(x, bottom, x, bottom - tick);
+    painter.DrawLine(x, bottom, x, bottom - bar_tick);
     paint_text(painter, mark.text, font_size, x, bottom - 22.0F);
   }
   std::string label = bar.label;
@@ -56,7 +56,7 @@ void paint_upright(vtkContext2D& painter, const ColorBar& bar, const ModelView& 
   const float right = left + Layout::bar_width;
   for (const BarMark& mark : marks_apart(bar, view.height(), false)) {
     const float y = view.bottom() + view.height() * static_cast<float>(mark.share);
-    painter.DrawLine(right, y, right + tick, y);
+    painter.DrawLine(right, y, right + bar_tick, y);
     paint_text(painter, mark.text, font_size, right + 14.0F, y, Anchor::left);
   }
   paint_text(painter, bar.label, 20, right + 34.0F + longest(bar),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "files/number_text.hpp"
 
@@ -37,16 +38,15 @@ std::string time_words(double seconds, double end, double spacing) {
   }
   const double power = std::pow(10.0, std::clamp(std::ceil(-std::log10(step)), 0.0, 15.0));
   const double parts_per_second = finest.seconds > 1.0 ? 1.0 / finest.seconds : power;
-  double rest = std::round(seconds * parts_per_second);
+  double parts = std::round(seconds * parts_per_second);
   std::string text;
-  const std::vector<TimeUnit>& units = time_units();
-  for (auto unit = units.rbegin(); unit != units.rend(); ++unit) {
-    if (unit->seconds > coarsest.seconds || unit->seconds < finest.seconds) continue;
-    const double size = unit->seconds * parts_per_second;
-    const bool last = unit->seconds == finest.seconds;
-    const double count = last ? rest / size : std::floor(rest / size + 1e-9);
-    rest -= count * size;
-    if (count > 0.0) text += (text.empty() ? "" : " ") + number_text(count) + " " + unit->name;
+  for (const TimeUnit& unit : std::ranges::reverse_view(time_units())) {
+    if (unit.seconds > coarsest.seconds || unit.seconds < finest.seconds) continue;
+    const double size = unit.seconds * parts_per_second;
+    const bool last = unit.seconds == finest.seconds;
+    const double count = last ? parts / size : std::floor(parts / size + 1e-9);
+    parts -= count * size;
+    if (count > 0.0) text += (text.empty() ? "" : " ") + number_text(count) + " " + unit.name;
   }
   return text;
 }
