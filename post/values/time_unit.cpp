@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "files/number_text.hpp"
 
@@ -40,7 +39,9 @@ std::string time_words(double seconds, double end, double spacing) {
   const double parts_per_second = finest.seconds > 1.0 ? 1.0 / finest.seconds : power;
   double parts = std::round(seconds * parts_per_second);
   std::string text;
-  for (const TimeUnit& unit : std::ranges::reverse_view(time_units())) {
+  const std::vector<TimeUnit>& units = time_units();
+  for (std::size_t i = units.size(); i-- > 0;) {  // the coarsest first
+    const TimeUnit& unit = units[i];
     if (unit.seconds > coarsest.seconds || unit.seconds < finest.seconds) continue;
     const double size = unit.seconds * parts_per_second;
     const bool last = unit.seconds == finest.seconds;
