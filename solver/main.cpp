@@ -172,6 +172,17 @@ void add_strength_reduction(CLI::App& app, Arguments& arguments) {
                  "Time of a snapshot of that run, s, in the place of the last; all: a row for each")
       ->type_name("TIME")
       ->needs(state);
+  app.add_option("--region", arguments.strength.failing.regions,
+                 "Only the soil of this region fails, other soil is elastic; more than once for "
+                 "more regions")
+      ->allow_extra_args(false)
+      ->type_name("NAME")
+      ->needs(mode);
+  app.add_option("--deeper", arguments.strength.failing.depth,
+                 "Leave out bodies that fail within this distance of the surface of the soil, m")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->type_name("DEPTH")
+      ->needs(mode);
   app.add_option("--mechanism", arguments.strength.mechanism,
                  "Write how the soil fails, on the mesh, as a file for ParaView")
       ->check(refuse_empty)

@@ -5,6 +5,7 @@
 
 #include "boundary/boundary_loads.hpp"
 #include "boundary/free_water.hpp"
+#include "boundary/soil_depth.hpp"
 #include "physics/liquid.hpp"
 
 namespace suffuse {
@@ -97,6 +98,24 @@ BoundaryLoads<Dim> moved_loads(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
   return loads;
 }
 
+/// Additional cohesion per point, Pa: half of the unit weight times `depth` at smaller depths, 0
+/// elsewhere.
+template <int Dim>
+std::vector<double> surface_cohesion(const SoilMap<Dim>& soils, const SoilState<Dim>& state,
+                                     double depth, const std::vector<double>& depths) {
+  std::vector<double> cohesion(depths.size(), 0.0);
+  const std::array<double, 3>& gravity = soils.scene().gravity;
+  const double acceleration = std::hypot(gravity[0], gravity[1], gravity[2]);
+  for (std::size_t p = 0; p < depths.size(); ++p) {
+    if (depths[p] >= depth) continue;
+    const Soil& soil = soils.soil_of_point(state.id[p]);
+    const double density = soil.grain_density * state.solid_volume[p] / state.points.volume[p] +
+                           state.liquid_mass[state.points.element[p]];
+    cohesion[p] = 0.5 * density * acceleration * depth;
+  }
+  return cohesion;
+}
+
 }  // namespace
 
 SoilFields soil_fields(bool moves) {
@@ -143,8 +162,8 @@ SoilState<Dim> soil_state(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
 
 template <int Dim>
 SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                const SoilState<Dim>& state, int threads,
-                                const StrengthReductionLimits& limits) {
+                                const SoilState<Dim>& state, const FailingSoil& failing,
+                                int threads, const StrengthReductionLimits& limits) {
   const Supports<Dim> supports = scene_supports(grid, soils);
   const PointsByElement sorted(grid.mesh.element_count(), state.points.element);
   const ElementClasses classes(grid, state.points, sorted);
@@ -153,6 +172,9 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
   for (int p = 0; p < state.points.size(); ++p) {
     const Soil& soil = soils.soil_of_point(state.id[p]);
     skeleton.push_back(skeleton_at(soil.skeleton, state.fines_left[p]));
+    if (soil.skeleton.moves() && !failing.includes(soil.region)) {
+      skeleton.back().law = skeleton_law("elastic");
+    }
     mass.solid.push_back(state.solid_volume[p] * soil.grain_density);
   }
   NodeVectors<Dim> loads(grid.mesh.node_count(), Vector<Dim>::Zero());
@@ -162,15 +184,20 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
     add_free_water(grid, sorted, soil_volumes(state.points, sorted, classes), state.pressure,
                    state.liquid_mass, soils.scene().gravity, loads);
   }
+  std::vector<double> kept;
+  if (failing.depth > 0.0) {
+    kept = surface_cohesion(soils, state, failing.depth,
+                            depths_below_surface(grid, supports, state.points, sorted));
+  }
   return find_safety_factor<Dim>({grid, state.points, sorted, skeleton, classes}, supports, loads,
-                                 state.pressure, threads, limits);
+                                 state.pressure, threads, limits, kept);
 }
 
 template SoilState<2> soil_state(const Grid<2>&, const SoilMap<2>&, const Snapshot&);
 template SoilState<3> soil_state(const Grid<3>&, const SoilMap<3>&, const Snapshot&);
 template SafetyFactor find_safety_factor(const Grid<2>&, const SoilMap<2>&, const SoilState<2>&,
-                                         int, const StrengthReductionLimits&);
+                                         const FailingSoil&, int, const StrengthReductionLimits&);
 template SafetyFactor find_safety_factor(const Grid<3>&, const SoilMap<3>&, const SoilState<3>&,
-                                         int, const StrengthReductionLimits&);
+                                         const FailingSoil&, int, const StrengthReductionLimits&);
 
 }  // namespace suffuse

@@ -43,13 +43,14 @@ class StrengthReduction {
  public:
   StrengthReduction(const SolidBody<Dim>& body, const Supports<Dim>& supports,
                     const NodeVectors<Dim>& loads, const std::vector<double>& pressure, int threads,
-                    const StrengthReductionLimits& limits)
+                    const StrengthReductionLimits& limits, const std::vector<double>& kept_cohesion)
       : body_(body),
         supports_(supports),
         loads_(loads),
         pressure_(pressure),
         threads_(threads),
         limits_(limits),
+        kept_cohesion_(kept_cohesion),
         points_(body.points),
         skeleton_(body.skeleton),
         held_(loads.size(), Vector<Dim>::Zero()) {
@@ -162,6 +163,7 @@ class StrengthReduction {
     for (std::size_t p = 0; p < skeleton_.size(); ++p) {
       skeleton_[p].parameters = reduced_strength(body_.skeleton[p].parameters, factor);
       skeleton_[p].parameters.young *= stiffness_;
+      if (!kept_cohesion_.empty()) skeleton_[p].parameters.cohesion += kept_cohesion_[p];
     }
   }
 
@@ -175,6 +177,7 @@ class StrengthReduction {
   const std::vector<double>& pressure_;
   int threads_;
   const StrengthReductionLimits& limits_;
+  const std::vector<double>& kept_cohesion_;
   SolidPoints<Dim> points_;  ///< without stress
   std::vector<PointSkeleton> skeleton_;
   NodeVectors<Dim> held_;     ///< displacement in the trial of the largest factor that holds
@@ -198,15 +201,19 @@ SkeletonParameters reduced_strength(const SkeletonParameters& parameters, double
 template <int Dim>
 SafetyFactor find_safety_factor(const SolidBody<Dim>& body, const Supports<Dim>& supports,
                                 const NodeVectors<Dim>& loads, const std::vector<double>& pressure,
-                                int threads, const StrengthReductionLimits& limits) {
-  return StrengthReduction<Dim>(body, supports, loads, pressure, threads, limits).find();
+                                int threads, const StrengthReductionLimits& limits,
+                                const std::vector<double>& kept_cohesion) {
+  return StrengthReduction<Dim>(body, supports, loads, pressure, threads, limits, kept_cohesion)
+      .find();
 }
 
 template SafetyFactor find_safety_factor(const SolidBody<2>&, const Supports<2>&,
                                          const NodeVectors<2>&, const std::vector<double>&, int,
-                                         const StrengthReductionLimits&);
+                                         const StrengthReductionLimits&,
+                                         const std::vector<double>&);
 template SafetyFactor find_safety_factor(const SolidBody<3>&, const Supports<3>&,
                                          const NodeVectors<3>&, const std::vector<double>&, int,
-                                         const StrengthReductionLimits&);
+                                         const StrengthReductionLimits&,
+                                         const std::vector<double>&);
 
 }  // namespace suffuse

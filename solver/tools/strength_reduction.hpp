@@ -77,11 +77,13 @@ struct SafetyFactor {
 /// \param body      stresses and `plastic_strain` of its points are not used
 /// \param loads     per node, N
 /// \param pressure  pore pressure per element, Pa; empty: none
+/// \param kept_cohesion  per point: additional cohesion that is not divided, Pa; empty: none
 ///
 /// Throws NumericalError when nothing holds the soil.
 template <int Dim>
 SafetyFactor find_safety_factor(const SolidBody<Dim>& body, const Supports<Dim>& supports,
                                 const NodeVectors<Dim>& loads, const std::vector<double>& pressure,
-                                int threads, const StrengthReductionLimits& limits = {});
+                                int threads, const StrengthReductionLimits& limits = {},
+                                const std::vector<double>& kept_cohesion = {});
 
 }  // namespace suffuse

@@ -19,7 +19,6 @@
 #include "results/vtkhdf.hpp"
 #include "scene/law_texts.hpp"
 #include "scene/scene_schema.hpp"
-#include "tools/soil_state.hpp"
 
 namespace suffuse {
 namespace {
@@ -153,6 +152,21 @@ void refuse_other_soil(const Case<Dim>& c, const ResultsReader& results) {
 }
 
 template <int Dim>
+void refuse_failing_soil(const Case<Dim>& c, const FailingSoil& failing) {
+  std::vector<std::string> strong;
+  for (const Soil& soil : c.document.scene.soils) {
+    if (has_strength(soil)) strong.push_back(soil.region);
+  }
+  for (const std::string& region : failing.regions) {
+    if (std::ranges::count(strong, region) > 0) continue;
+    refuse_option("--region", shown_value(region), "a soil with a strength: " + listed(strong));
+  }
+  if (failing.depth > 0.0 && c.document.scene.gravity == std::array<double, 3>{}) {
+    refuse_option("--deeper", shown_number(failing.depth), "a scene with gravity");
+  }
+}
+
+template <int Dim>
 class StrengthTable {
  public:
   StrengthTable(const Case<Dim>& c, const StrengthReductionOptions& options)
@@ -163,14 +177,16 @@ class StrengthTable {
   std::string add(const Snapshot& snapshot, const std::string& where) {
     const SoilState<Dim> state = soil_state(grid_, soils_, snapshot);
     warn_of_suction(state, where);
-    SafetyFactor found = find_safety_factor(grid_, soils_, state, options_.threads);
+    SafetyFactor found =
+        find_safety_factor(grid_, soils_, state, options_.failing, options_.threads);
     mechanism_ = std::move(found.mechanism);
     if (found.undecided_node >= 0) return where + ": " + undecided(found, state);
     if (found.holds == 0.0) {
       return where + ": there is no factor of safety: the soil fails, even with " +
              shown_number(1.0 / found.fails) + " times its strength; " + moving_body(state) +
              "; expected is soil that bears its loads with some strength: cohesion where water "
-             "pulls at soil or flows out of it, supports where it hangs";
+             "pulls at soil or flows out of it, supports where it hangs. --region and --deeper "
+             "leave out soil that fails by itself";
     }
     add_row(found, state);
     if (!options_.quiet) std::fprintf(stderr, "%s\n", sentence(found, state, where).c_str());
@@ -345,6 +361,7 @@ class StrengthTable {
 template <int Dim>
 void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& options) {
   refuse_without_strength(c.document);
+  refuse_failing_soil(c, options.failing);
   if (!options.mechanism.empty() && options.time == "all") {
     refuse_option("--mechanism", "a file beside --time all", "one time");
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "case/case_file.hpp"
+#include "tools/soil_state.hpp"
 
 namespace suffuse {
 
@@ -15,6 +16,7 @@ struct StrengthReductionOptions {
   std::string output = "-";  ///< CSV; `-`: standard output
   /// VTKHDF file of the mechanism of failure on the mesh; empty: none. Only for one state.
   std::string mechanism;
+  FailingSoil failing;
   int threads = 1;
   bool quiet = false;  ///< only warnings on standard error
 };
@@ -23,7 +25,8 @@ struct StrengthReductionOptions {
 /// `holds`, `fails`, `trials`, `iterations`, `fines_left`, `displacement_max`. Prints each factor
 /// with the body that fails on standard error. The file of the mechanism has the displacement in
 /// the trial of the smallest factor that fails, and its shear strain per element, both over the
-/// largest displacement. Throws InputError if no soil has a strength, or if the state has other
+/// largest displacement. Throws InputError if no soil has a strength, if a region that
+/// is to fail has none, or if the state has other
 /// points or no such time. Throws NumericalError when nothing holds the soil, and, after the table
 /// has been written, for states without a factor: soil that fails with any strength, or undecided
 /// trials. Throws FileError.

@@ -200,6 +200,89 @@ TEST(StrengthTable, SlopeUnderWaterHasTheFactorOfOneThatWeighsAsMuchAsItUnderWat
               0.05 * light.at("displacement_max")[0]);
 }
 
+// --------------------------------------------- soil that fails by itself beside a slope that holds
+
+/// Sand without cohesion in front of the toe, which it touches at one node.
+std::string ground_geometry(double thickness) {
+  return std::string(slope_geometry) + filled(R"(
+Point(5) = {32, %, 0};
+Point(6) = {40, %, 0};
+Point(7) = {40, 0, 0};
+Line(5) = {5, 6};
+Line(6) = {6, 7};
+Line(7) = {7, 2};
+Line(8) = {2, 5};
+Curve Loop(2) = {5, 6, 7, 8};
+Plane Surface(2) = {2};
+Physical Surface("ground") = {2};
+Physical Curve("below") = {5};
+Physical Curve("sides") = {6, 8};
+Physical Curve("top") = {7};
+)",
+                                              {-thickness, -thickness});
+}
+
+/// Water flows up through the ground with a gradient of 1.5, which lifts it.
+std::string lifted_ground(double thickness) {
+  return filled(R"([soil.ground]
+porosity = 0.4
+skeleton_fraction = 0.6
+grain_density = 2700.0
+conductivity = 1e-4
+[soil.ground.skeleton]
+law = "mohr-coulomb"
+young = 1e8
+poisson = 0.3
+friction = 35.0
+cohesion = 0.0
+[[boundary]]
+on = "below"
+fix = "both"
+head = %
+[[boundary]]
+on = "sides"
+fix = "normal"
+[[boundary]]
+on = "top"
+head = 0.0
+[initial]
+flow = "steady"
+)",
+                {1.5 * thickness});
+}
+
+TEST(StrengthTable, LeavesOutSoilThatFailsByItself) {
+  const Workshop w;
+  w.folder().write("slope.geo", slope_geometry);
+  const Slope alone{.mesh = 2.0, .cohesion = cohesion_for(0.05, dry_weight)};
+  w.mesh("alone", slope_scene(alone));
+  const double expected = w.factors("alone").at("factor")[0];
+  const auto lift = [&](const std::string& name, double thickness) {
+    w.folder().write("slope.geo", ground_geometry(thickness));
+    Slope slope = alone;
+    slope.more = lifted_ground(thickness);
+    std::string scene = slope_scene(slope);
+    const std::string level = "initial.water_level = -10\n";
+    scene.replace(scene.find(level), level.size(), "");
+    w.mesh(name, scene);
+  };
+  lift("thin", 0.5);
+  EXPECT_TRUE(w.refusal("thin.case.h5 --strength-reduction", 3)
+                  .starts_with("at the start: there is no factor of safety"));
+  EXPECT_NEAR(w.factors("thin", "--region fill").at("factor")[0], expected, 0.01 * expected);
+  // The skin hardly holds a slip 10 m long.
+  const double deep =
+      w.factors("thin", "--region fill --region ground --deeper 0.6").at("factor")[0];
+  EXPECT_NEAR(deep, expected, 0.05 * expected);
+  EXPECT_GE(deep, 0.995 * expected);
+  // A body thicker than the depth is not left out.
+  lift("thick", 4.0);
+  EXPECT_TRUE(w.refusal("thick.case.h5 --strength-reduction --deeper 1", 3)
+                  .starts_with("at the start: there is no factor of safety"));
+  EXPECT_EQ(w.refusal("thick.case.h5 --strength-reduction --region fil"),
+            "--region: got \"fil\"; expected a soil with a strength: fill or ground\n");
+}
+
 // ------------------------------------------------------------------ the infinite slope with
 // seepage
 
