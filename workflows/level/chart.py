@@ -14,6 +14,7 @@ CURVES = (
     ("#c2185b", "12 6", "box"),
     ("#005f73", "2 6", "circle"),
     ("#6b4f00", "6 2", "square"),
+    ("#3b3b9e", "14 3", "ring"),
 )
 MARKERS = {
     "circle": '<circle r="4.5" fill="{0}"/>',
@@ -36,10 +37,11 @@ def ticks(low, high, most=8):
 
 
 class Panel:
-    """A chart with the ends of both axes."""
+    """A chart with the ends of both axes. `marks`: values of x on the axis, round numbers if there are none."""
 
-    def __init__(self, x, y, x_label, y_label):
+    def __init__(self, x, y, x_label, y_label, marks=None):
         self.x, self.y, self.x_label, self.y_label = x, y, x_label, y_label
+        self.marks = marks or ticks(*x)
 
     def at(self, x, y):
         share_x = (x - self.x[0]) / (self.x[1] - self.x[0])
@@ -49,7 +51,7 @@ class Panel:
     def axes(self):
         right, bottom = LEFT + WIDTH, TOP + HEIGHT
         yield f'<clipPath id="inside"><rect x="{LEFT - 6}" y="{TOP}" width="{WIDTH + 12}" height="{HEIGHT + 6}"/></clipPath>'
-        for value in ticks(*self.x):
+        for value in self.marks:
             x, _ = self.at(value, self.y[0])
             yield f'<line x1="{x:.1f}" y1="{TOP}" x2="{x:.1f}" y2="{bottom}" stroke="#e4e4e4"/>'
             yield f'<text x="{x:.1f}" y="{bottom + 20}" text-anchor="middle">{value:.10g}</text>'
@@ -91,14 +93,16 @@ class Panel:
         bottom = self.at(x, low)[1]
         yield f'<path d="M{left - 4:.1f} {top:.1f} h8 m-4 0 V{bottom:.1f} m-4 0 h8" fill="none" stroke="{style[0]}" stroke-width="1.2"/>'
 
-    def legend(self, entries):
-        """Lines of words and style, to the right of the chart."""
+    def legend(self, entries, notes=()):
+        """Lines of words and style, to the right of the chart, and lines of words below them."""
         left = LEFT + WIDTH + 24
         for number, (words, (color, dash, kind)) in enumerate(entries):
             line = TOP + 14 + 26 * number
             yield f'<path d="M{left} {line} h44" stroke="{color}" stroke-width="1.8" stroke-dasharray="{dash}"/>'
             yield mark(kind, color, left + 22, line)
             yield f'<text x="{left + 54}" y="{line + 5}">{words}</text>'
+        for number, words in enumerate(notes):
+            yield f'<text x="{left}" y="{TOP + 27 + 26 * len(entries) + 20 * number}">{words}</text>'
 
 
 def mark(kind, color, x, y):

@@ -7,15 +7,15 @@
 
 `prepare` follows the search from its start, as far as the runs so far answer it, and adds the levels that it needs next. So
 a study that was stopped goes on, and one that is complete adds nothing. BOUNDARY, FROM, TO, SCAN, TOLERANCE_LEVEL, STEADY,
-SET and FACTOR come from the environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
+SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
 """
 
 import dataclasses
 import math
 import sys
 
-from levels import (InputError, call, named_failures, number_in, outcomes, problem, rounded, rows_of_sweep,
-                    write_changed, write_table)
+from levels import (InputError, call, named_failures, named_warnings, number_in, outcomes, problem, rounded, rows_of_sweep,
+                    said_beside, write_changed, write_table)
 from chart import CURVES, Panel, document
 from assessment import SLOPE, cell, in_order, is_assessed, messages_of, spoken
 from sweep import csv_text
@@ -211,6 +211,13 @@ def curves_of(known, mechanisms):
     return {name: line for name, line in points.items() if line}
 
 
+def words_of(name, line, begins):
+    """The entry of a mechanism in the legend of the chart. `line`: its points."""
+    if name in begins:
+        return f"{spoken(name)}, from {metres(begins[name])}"
+    return spoken(name) + (f", above {HIGHEST_SHOWN:g}" if min(factor for _, factor in line) > HIGHEST_SHOWN else "")
+
+
 def draw(path, known, mechanisms, rows):
     curves = curves_of(known, mechanisms)
     shown = [min(factor, HIGHEST_SHOWN) for line in curves.values() for _, factor in line]
@@ -221,8 +228,7 @@ def draw(path, known, mechanisms, rows):
         parts += panel.curve(curves[name], style)
         if name in begins:
             parts += panel.drop(begins[name], 1.0, style)
-    legend = [(f"{spoken(name)}, from {metres(begins[name])}" if name in begins else spoken(name), style)
-              for name, style in zip(curves, CURVES)]
+    legend = [(words_of(name, curves[name], begins), style) for name, style in zip(curves, CURVES)]
     write_changed(path, document("Factor of safety of each mechanism against the level", [*parts, *panel.legend(legend)]))
 
 
@@ -250,10 +256,11 @@ def conclude(study, folder):
     absent = [spoken(row["mechanism"]) for row in rows if row["found"] == "absent"]
     lines += [f"- {' and '.join(absent)}: no level has a factor."] if absent else []
     lines += [f"- {text}." for text in not_looked_at(folder, rows_known.values(), mechanisms)]
+    lines += ["", *beside] if (beside := said_beside(study, folder, rows_known.values(), mechanisms, "Not part of the search")) else []
     write_changed(folder / "report.md", "\n".join(lines) + "\n")
     print("\n".join(lines))
     print(f"Tables and chart are in {folder.resolve()}")
-    for line in named_failures(silent):
+    for line in named_warnings(folder, wanted) + named_failures(silent):
         print(f"critical_level.py: {line}", file=sys.stderr)
     return 1 if silent else 0
 

@@ -5,23 +5,29 @@
                                            which states the factor of safety is
     fragility.py conclude SCENE FOLDER     writes fragility.csv, draws.csv, report.md, fragility.svg
 
-LEVELS, SWEEP, BOUNDARY, STEADY, SET and FACTOR come from the environment. Exit codes: 2 for wrong input; 1 if runs have no
-answer.
+LEVELS, SWEEP, BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1
+if runs have no answer.
 """
 
 import os
 import sys
 
-from levels import (InputError, call, named_failures, outcomes, problem, rounded, rows_of_sweep, write_changed, write_table)
+from levels import (InputError, call, named_failures, named_warnings, outcomes, problem, rounded, rows_of_sweep, said_beside,
+                    write_changed, write_table)
 from chart import CURVES, Panel, document
-from assessment import SLOPE, Outcome, cell, in_order, spoken
+from assessment import EROSION, SLOPE, Outcome, cell, in_order, spoken
 from bounds import SHARE, bounds
 from runs import MOST_RUNS, read_runs
 from sweep import csv_text
 
 ANY = "any of them"
-# Pixels between the intervals of mechanisms at one level.
+# Erosion beyond a threshold is no breach.
+ANY_BUT = "any but erosion"
+# Between the intervals of mechanisms at one level, pixels; and how far from the level they may be, as a share of the axis.
 APART = 7
+ASIDE = 0.01
+# Levels that the axis can name.
+MOST_MARKED = 8
 
 
 def asked_levels():
@@ -65,10 +71,21 @@ def prepare(study, folder):
     print(study.states)
 
 
+def groups_of(mechanisms):
+    """Names of groups of mechanisms, and what is in them."""
+    others = [name for name in mechanisms if name != EROSION]
+    groups = {ANY: mechanisms} if len(mechanisms) > 1 else {}
+    return groups | ({ANY_BUT: others} if others and len(others) < len(mechanisms) else {})
+
+
 def with_any(found, mechanisms):
-    """Adds the failure of any mechanism: known where one fails, or where none is missing."""
-    fails = any(outcome.fails for outcome in found.values())
-    return found | {ANY: Outcome(fails)} if fails or found.keys() >= set(mechanisms) else found
+    """Adds the failure of any mechanism of each group: known where one fails, or where none is missing."""
+    groups = {}
+    for name, members in groups_of(mechanisms).items():
+        fails = any(found[member].fails for member in members if member in found)
+        if fails or found.keys() >= set(members):
+            groups[name] = Outcome(fails)
+    return found | groups
 
 
 def shares(runs, mechanisms, levels):
@@ -87,17 +104,21 @@ HEADER = ["mechanism", "level [m]", "runs", "failures", "probability [-]", "low 
 
 def draw_chart(path, table, mechanisms, levels):
     margin = 0.08 * ((levels[-1] - levels[0]) or 1.0)
-    panel = Panel((levels[0] - margin, levels[-1] + margin), (-0.03, 1.03), "level (m)", "probability of failure (-)")
+    panel = Panel((levels[0] - margin, levels[-1] + margin), (-0.03, 1.03), "level (m)", "probability of failure (-)",
+                  levels if len(levels) <= MOST_MARKED else None)
     parts = list(panel.axes())
-    styles = list(zip(mechanisms, CURVES))
-    for place, (mechanism, style) in enumerate(styles):
-        # Side by side, as intervals of several mechanisms may be the same.
-        shift = panel.length(APART * (place - (len(styles) - 1) / 2))
-        points = [(float(row[1]) + shift, *map(float, row[4:7])) for row in table if row[0] == mechanism and row[4] != ""]
+    numbers = {mechanism: tuple(tuple(row[1:]) for row in table if row[0] == mechanism) for mechanism in mechanisms}
+    # Mechanisms with the same numbers share a curve, as one would hide the other.
+    styles = dict(zip(dict.fromkeys(numbers.values()), CURVES))
+    apart = min(panel.length(APART), 2.0 * ASIDE * (panel.x[1] - panel.x[0]) / max(1, len(styles) - 1))
+    for place, (rows, style) in enumerate(styles.items()):
+        shift = apart * (place - (len(styles) - 1) / 2)
+        points = [(float(row[0]) + shift, *map(float, row[3:6])) for row in rows if row[3] != ""]
         for x, _, low, high in points:
             parts += panel.bar(x, low, high, style)
         parts += panel.curve([point[:2] for point in points], style)
-    parts += panel.legend([(spoken(mechanism), style) for mechanism, style in styles])
+    parts += panel.legend([(spoken(mechanism), styles[rows]) for mechanism, rows in numbers.items()],
+                          ["Mechanisms with the same numbers share a curve."] if len(styles) < len(numbers) else [])
     write_changed(path, document("Probability of failure of each mechanism against the level", parts))
 
 
@@ -116,13 +137,14 @@ def conclude(study, folder):
         raise InputError(["no run says how safe it is", *named_failures(silent)])
     runs = [(draw, level, with_any({name: found[name] for name in mechanisms if name in found}, mechanisms))
             for draw, level, found in runs]
-    table = list(shares(runs, mechanisms + [ANY] * (len(mechanisms) > 1), levels))
+    shown = [*mechanisms, *groups_of(mechanisms)]
+    table = list(shares(runs, shown, levels))
     write_changed(folder / "fragility.csv", csv_text([HEADER, *table]))
     draws = [[draw, row["run"], cell(level), *(cell(found[name].factor) if name in found else "" for name in mechanisms),
               " ".join(name for name in mechanisms if name in found and found[name].fails)]
              for row, (draw, level, found) in zip(rows, runs)]
     write_changed(folder / "draws.csv", csv_text([["draw", "run", "level [m]", *(f"{name} [-]" for name in mechanisms), "fails"], *draws]))
-    draw_chart(folder / "fragility.svg", table, mechanisms + [ANY] * (len(mechanisms) > 1), levels)
+    draw_chart(folder / "fragility.svg", table, shown, levels)
     lines = [f"Probability of failure in {len(runs) // len(levels)} draws, with bounds that hold {100 * SHARE:g} % of the time:"]
     lines += [f"- {spoken(name)} at {level} m: {probability} ({low} to {high})" + (f"; {missing} runs have no answer" if missing else "")
               for name, level, _, _, probability, low, high, missing in table if probability]
@@ -131,10 +153,11 @@ def conclude(study, folder):
         lines.append(f"No run has a factor of {' or '.join(absent)}.")
     if SLOPE not in mechanisms:
         lines.append("The slope was not looked at.")
+    lines += said_beside(study, folder, rows, mechanisms, "Not counted")
     write_changed(folder / "report.md", "\n".join(lines) + "\n")
     print("\n".join(lines))
     print(f"Tables and chart are in {folder.resolve()}")
-    for line in named_failures(silent):
+    for line in named_warnings(folder, rows) + named_failures(silent):
         print(f"fragility.py: {line}", file=sys.stderr)
     return 1 if silent else 0
 

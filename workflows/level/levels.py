@@ -9,16 +9,19 @@ import csv
 import math
 import os
 import pathlib
+import re
 import sys
 import tomllib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "sweep"))
-from assessment import STATES, outcomes_of, with_absent
+from assessment import SLOPE, STATES, outcomes_of, reduction_options, said_of_options, said_of_others, with_absent
 from inputs import write_changed
 from problems import InputError, problem
 from sweep import csv_text, read_csv, refuse_foreign
 
 STEADY_END = 1.0  # s: by then hardly any fines have left
+# A number in a warning; not that of a name or an index, such as soil2 or boundary[0].
+NUMBER = re.compile(r"(?<![\w.\[])[-+]?\d+(\.\d+)?([eE][-+]?\d+)?(?![\w\]])")
 
 
 def number_in(variable, default=None):
@@ -174,7 +177,8 @@ def rounded(level):
 
 
 def write_table(study, folder, rows):
-    """The table of the sweep. Throws InputError if the folder is that of another scene."""
+    """The table of the sweep. Throws InputError if the folder is that of another scene, or for wrong options of the slope."""
+    reduction_options(study.scene, rows[0], study.states)
     refuse_foreign(folder / "runs", study.path, folder.resolve() / "table.csv")
     write_changed(folder / "table.csv", csv_text(rows))
 
@@ -192,6 +196,44 @@ def outcomes(study, folder, rows):
     """What the mechanisms did in each run. `rows`: key -> row of the sweep."""
     return with_absent({key: outcomes_of(folder / "runs", row["run"], row["status"], row["message"], study.states)
                         for key, row in rows.items()})
+
+
+def said_beside(study, folder, rows, mechanisms, start):
+    """Sentences about what the study leaves out: checks that do not depend on the level, soil, and what is not checked where
+    soil moves. `start`: of the first."""
+    names = [row["run"] for row in rows]
+    others = said_of_others(folder / "runs" / name / name for name in names)
+    header = read_csv(folder / "table.csv")[0]
+    options = said_of_options(reduction_options(study.scene, header, study.states))
+    moves = SLOPE in mechanisms and not {"hyd-stresses", "hyd-forces", "uplift"} & set(mechanisms)
+    return ([f"{start}, as they do not depend on the level: {others}."] * bool(others) + [f"Of the slope, {options}."] * bool(options)
+            + ["Heave by EN 1997-1 and uplift are not checked where soil moves: a study without strengths looks at them."] * moves)
+
+
+def warnings_of(stem):
+    """The warnings of the programs in a run, each once, without a change that stands before its key."""
+    found = {}
+    for suffix in ("log", "assessed"):
+        path = stem.with_name(f"{stem.name}.{suffix}")
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines() if path.is_file() else []
+        for text in (line.partition("warning: ")[2] for line in lines if re.match(r"([\w-]+: )?warning: ", line)):
+            found[re.sub(r"^--set ([^=\s]+)=.*: (?=\1)", "", text)] = None
+    return list(found)
+
+
+def named_warnings(folder, rows):
+    """A line for each warning of the runs. Warnings that differ in their numbers only are one."""
+    kinds = {}
+    for row in rows:
+        texts = {NUMBER.sub("#", text): text for text in warnings_of(folder / "runs" / row["run"] / row["run"])}
+        for kind, text in texts.items():
+            kinds.setdefault(kind, []).append((row["run"], text))
+    lines = []
+    for found in kinds.values():
+        run, text = found[0]
+        differ = any(other != text for _, other in found)
+        lines.append(f"warning: {text} ({len(found)} of {len(rows)} runs{f'; these are the numbers of {run}' if differ else ''})")
+    return lines
 
 
 def named_failures(rows):

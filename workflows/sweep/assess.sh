@@ -2,15 +2,17 @@
 # One run, and how safe it is: run.sh, then the checks of its results and the factor of safety of its
 # soil. It goes on where an earlier call was stopped, and does nothing if an earlier call reached an end.
 #
-#     assess.sh PROGRAMS STEM TOLERANCE FACTOR
+#     assess.sh PROGRAMS STEM TOLERANCE FACTOR [OPTION...]
 #
 # FACTOR says of which states the factor of safety is wanted: start, last, all, or checks for none.
-# Makes STEM.check.csv and STEM.factors.csv where there is something to write, and STEM.assessed at
-# the end: lines `check: MESSAGE` and `factor: MESSAGE`, why there is no such number. Programs that
-# were stopped end this script with their exit code, as in run.sh.
+# The options are --region NAME and --deeper DEPTH of the strength reduction. Makes STEM.check.csv and
+# STEM.factors.csv where there is something to write, and STEM.assessed at the end: lines
+# `check: MESSAGE` and `factor: MESSAGE`, why there is no such number, and `warning: MESSAGE`. Programs
+# that were stopped end this script with their exit code, as in run.sh.
 set -u
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 programs=$1 stem=$2 tolerance=$3 factor=$4
+shift 4
 name=${stem##*/}
 "$here/run.sh" "$programs" "$stem" "$tolerance" || exit $?
 cd "${stem%/*}" || exit 4
@@ -25,11 +27,12 @@ rm -f "$name.check.csv" "$name.factors.csv" "$assessed"
 : > "$assessed.new"
 trap : INT TERM HUP
 
-# ask WHAT PROGRAM ARGUMENT...: runs a program and keeps its first error.
+# ask WHAT PROGRAM ARGUMENT...: runs a program and keeps its first error, and its warnings.
 ask() {
   local what=$1 program=$2 code=0
   shift 2
   "$programs/$program" "$@" > /dev/null 2> ".$name.said" 9>&- || code=$?
+  sed -n 's/^.*: warning: /warning: /p' ".$name.said" >> "$assessed.new"
   case $code in
     0) ;;
     2 | 3) echo "$what: $(grep -v ': warning: ' ".$name.said" | grep -m1 .)" >> "$assessed.new" ;;
@@ -49,7 +52,7 @@ if [ "$factor" != checks ] && [ "$(head -1 "$name.status")" != refused ]; then
   esac
   # A run that failed at its start has no state.
   if [ "$factor" = start ] || [ -e "$name.results/run.json" ]; then
-    ask factor suffuse-solver "$name.case.h5" --strength-reduction "${state[@]}" --quiet -o "$name.factors.csv"
+    ask factor suffuse-solver "$name.case.h5" --strength-reduction "${state[@]}" "$@" --quiet -o "$name.factors.csv"
   fi
 fi
 rm -f ".$name.said"

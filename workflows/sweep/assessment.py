@@ -1,4 +1,7 @@
+#!/usr/bin/python3
 """How safe a run is: what assess.sh wrote, as factors of safety. A factor below 1 is a failure.
+
+    assessment.py SCENE SWEEP STATES      prints the options of the strength reduction that REGION and DEEPER ask for
 
 A mechanism is a way to fail. Those of `suffuse-post check` have the words of its table; `slope` is the factor of safety
 of the soil, by reduction of its strength.
@@ -7,10 +10,19 @@ of the soil, by reduction of its strength.
 import csv
 import dataclasses
 import math
+import os
+import pathlib
 import re
+import sys
+import tomllib
 
-# The order in tables and charts. Mechanisms that are not in this list follow by their names.
-MECHANISMS = ["erosion", "heave", "hyd-stresses", "hyd-forces", "uplift", "backward-erosion", "filter", "slope"]
+from problems import InputError, problem
+from runs import read_runs
+
+# Mechanisms that depend on the water level, in the order of tables and charts. Other checks, such as those of filters,
+# follow by their names.
+MECHANISMS = ["erosion", "heave", "hyd-stresses", "hyd-forces", "uplift", "blanket", "backward-erosion", "slope"]
+EROSION = "erosion"
 SLOPE = "slope"
 STATES = ["start", "last", "all", "checks"]
 # What the programs say where soil cannot bear its loads; docs/troubleshooting.md has the messages.
@@ -60,7 +72,7 @@ def rows_of(path):
 
 
 def messages_of(stem):
-    """What assess.sh could not find, and why: `check` or `factor` -> message."""
+    """What assess.sh could not find, and why: `check` or `factor` -> message. `warning` is no reason."""
     lines = stem.with_name(stem.name + ".assessed").read_text(encoding="utf-8", errors="replace").splitlines()
     found = {}
     for what, _, message in (line.partition(": ") for line in lines):
@@ -86,15 +98,22 @@ def slope_of(stem):
     return min((factor for factor in factors if factor is not None), default=None), messages_of(stem).get("factor", "")
 
 
+def places_of(stem):
+    """The rows of the table of checks: pairs of mechanism and outcome."""
+    found = []
+    for row in rows_of(stem.with_name(stem.name + ".check.csv")):
+        factor = number(row.get("factor"))
+        found.append((row["mechanism"], Outcome(factor is not None and factor < 1.0, factor, row.get("where", ""), row.get("clause", ""))))
+    return found
+
+
 def checks_of(stem):
     """The worst place of each mechanism of the table of checks."""
     worst = {}
-    for row in rows_of(stem.with_name(stem.name + ".check.csv")):
-        factor = number(row.get("factor"))
-        outcome = Outcome(factor is not None and factor < 1.0, factor, row.get("where", ""), row.get("clause", ""))
-        known = worst.get(row["mechanism"])
-        if known is None or known.factor is None or factor is not None and factor < known.factor:
-            worst[row["mechanism"]] = outcome
+    for mechanism, outcome in places_of(stem):
+        known = worst.get(mechanism)
+        if known is None or known.factor is None or outcome.factor is not None and outcome.factor < known.factor:
+            worst[mechanism] = outcome
     return worst
 
 
@@ -119,8 +138,8 @@ def columns_of(folder, name):
 
 
 def outcomes_of(folder, name, word, message, factor_of):
-    """What each mechanism did in a run, and whether that is known of all that are checked. `factor_of`: of which states
-    the factor is.
+    """What each mechanism that depends on the level did in a run, and whether that is known of all of them. `factor_of`: of
+    which states the factor is.
 
     A run that failed says nothing of the time after: its mechanisms are known if they had begun, or if the start alone was
     asked for. The loss of equilibrium is a failure of the slope, unless the start alone was asked for, and has a factor.
@@ -129,7 +148,8 @@ def outcomes_of(folder, name, word, message, factor_of):
         return {}, False
     stem = folder / name / name
     is_complete = (word == "done" or factor_of == "start") and stem.with_name(f"{name}.check.csv").is_file()
-    outcomes = {mechanism: found for mechanism, found in checks_of(stem).items() if is_complete or found.fails}
+    outcomes = {mechanism: found for mechanism, found in checks_of(stem).items()
+                if mechanism in MECHANISMS and (is_complete or found.fails)}
     factor, said = slope_of(stem)
     lost = [text for text in ([said] if factor is None or factor_of == "all" else []) + [message] * (word == "failed")
             if SOIL_FAILS.search(text)]
@@ -152,3 +172,109 @@ WORDS = {"hyd-stresses": "heave by EN 1997-1, stresses", "hyd-forces": "heave by
 
 def spoken(mechanism):
     return WORDS.get(mechanism, mechanism.replace("-", " "))
+
+
+def said_of_others(stems):
+    """What runs say of the checks that do not depend on the level, as the end of a sentence; nothing if there are none."""
+    factors = {}
+    for stem in stems:
+        for mechanism, outcome in places_of(stem):
+            if mechanism not in MECHANISMS and outcome.factor is not None:
+                factors.setdefault((mechanism, outcome.place), []).append(outcome.factor)
+    said = []
+    for (mechanism, place), found in sorted(factors.items()):
+        exceeded = sum(factor < 1.0 for factor in found)
+        if exceeded:
+            least, most = f"{min(found):.3g}", f"{max(found):.3g}"
+            runs = "" if exceeded == len(found) else f" in {exceeded} of {len(found)} runs"
+            said.append(f"{spoken(mechanism)} {place} has a factor of {least if least == most else f'{least} to {most}'} and is exceeded{runs}")
+    failing = {mechanism for (mechanism, _), found in factors.items() if min(found) < 1.0}
+    holding = sorted({spoken(mechanism) for mechanism, _ in factors if mechanism not in failing})
+    if holding:
+        said.append(f"{' and '.join(holding)} {'holds' if len(holding) == 1 else 'hold'}")
+    return "; ".join(said)
+
+
+# --- Soil that fails by itself ---------------------------------------------------------------------------------
+
+# Their soil has no strength that could be reduced.
+WITHOUT_STRENGTH = ("rigid", "elastic")
+NAME = re.compile(r"[\w.-]+")
+
+
+def table_in(value, key):
+    """A table of a scene; an empty one where there is none, which the mesher refuses."""
+    found = value.get(key) if isinstance(value, dict) else None
+    return found if isinstance(found, dict) else {}
+
+
+def may_have_strength(soils, name, keys):
+    """Whether a soil has a strength, or gets one by a key that the runs change."""
+    known = set()
+    while isinstance(name, str) and name not in known:
+        if any(key == f"soil.{name}" or key.startswith((f"soil.{name}.skeleton", f"soil.{name}.like")) for key in keys):
+            return True
+        law = table_in(table_in(soils, name), "skeleton").get("law")
+        if law is not None:
+            return law not in WITHOUT_STRENGTH
+        known.add(name)
+        name = table_in(soils, name).get("like")
+    return False
+
+
+def reduction_options(scene, keys, states):
+    """Options of the strength reduction, from REGION and DEEPER. `keys`: those of the scene that runs change. `states`: of
+    which states the factor is; "" for none. Throws InputError."""
+    names = sorted(set(os.environ.get("REGION", "").split()))
+    depth = os.environ.get("DEEPER", "").strip()
+    for variable, text in (("REGION", " ".join(names)), ("DEEPER", depth)):
+        if text and states in ("", "checks"):
+            wanted = "FACTOR=1, all or start" if not states else "FACTOR=start, last or all"
+            raise InputError([problem(variable, "", f"'{text}' {'with FACTOR=checks' if states else 'without FACTOR'}", f"{wanted} beside it")])
+    soils = table_in(scene, "soil")
+    changed = {key.split(".")[1] for key in keys if key.startswith("soil.") and key.count(".")}
+    strong = [name for name in sorted({*soils, *changed}) if NAME.fullmatch(name) and may_have_strength(soils, name, keys)]
+    options = []
+    for name in names:
+        if name not in strong:
+            known = " or ".join(strong) or "a scene with such a soil; this one has none"
+            raise InputError([problem("REGION", "", f"'{name}'", f"soils with a strength, with spaces between several: {known}", strong)])
+        options += ["--region", name]
+    if depth:
+        try:
+            value = float(depth)
+        except ValueError:
+            value = math.nan
+        if not 0.0 < value < math.inf:
+            raise InputError([problem("DEEPER", "", f"'{depth}'", "a depth above 0, m")])
+        if "gravity" not in keys and not any(scene.get("gravity", [0.0])):
+            raise InputError([problem("DEEPER", "", f"'{depth}'", "a scene with gravity; this one has none")])
+        options += ["--deeper", f"{value:.10g}"]
+    return options
+
+
+def said_of_options(options):
+    """What the options leave out, as a sentence; nothing without options."""
+    given = list(zip(options[::2], options[1::2]))
+    names = [value for option, value in given if option == "--region"]
+    said = [f"only {' and '.join(names)} can fail, other soil is elastic"] if names else []
+    said += [f"bodies within {value} m of the surface are left out" for option, value in given if option == "--deeper"]
+    return ", and ".join(said)
+
+
+def main():
+    scene, table, states = sys.argv[1:]
+    try:
+        keys, _ = read_runs(table)
+        try:
+            found = tomllib.loads(pathlib.Path(scene).read_text(encoding="utf-8-sig"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise InputError([f"{scene}: cannot be read: {error}"]) from None
+        print(*reduction_options(found, keys, states))
+    except InputError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
+
+
+if __name__ == "__main__":
+    main()

@@ -2,7 +2,7 @@
 # A sweep from its table to its figures, in OUT_FOLDER/sweep/NAME/: sweep.sh CALLED_FROM. make calls
 # it, with its variables in the environment and itself as MAKE; its -j holds for the runs. With
 # SWEEP_FOLDER the sweep is in that folder and has no figures. With FACTOR=1 it looks at how safe the
-# last state of each run is; FACTOR=all, start and checks: assess.sh.
+# last state of each run is; FACTOR=all, start and checks: assess.sh. REGION and DEEPER leave soil out.
 set -eu -o pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . ./find_file.sh
@@ -22,11 +22,19 @@ case ${FACTOR:-} in
     exit 2
     ;;
 esac
-export PROGRAMS STATES RUN=$PWD/sweep/run.sh ENDED=status
-if [ -n "$STATES" ]; then RUN=$PWD/sweep/assess.sh ENDED=assessed; fi
+reduction=
+if [ -n "${REGION:-}${DEEPER:-}" ]; then reduction=$("$PYTHON" sweep/assessment.py "$scene" "$table" "$STATES"); fi
 options=(--programs "$PROGRAMS" ${STATES:+--factor "$STATES"})
 
 "$PYTHON" sweep/sweep.py prepare "$scene" "$table" "$folder" "${options[@]}"
+# The date of assess.inputs says since when runs are looked at in this way.
+if [ -n "$STATES" ] && [ "$(cat -- "$folder/assess.options" 2> /dev/null)" != "$reduction" ]; then
+  touch -- "$folder/assess.inputs"
+  echo "$reduction" > "$folder/assess.options"
+fi
+export PROGRAMS STATES RUN=$PWD/sweep/run.sh ENDED=status
+# assess.sh has the options of the strength reduction behind the states.
+if [ -n "$STATES" ]; then STATES="$STATES $reduction" RUN=$PWD/sweep/assess.sh ENDED=assessed; fi
 # A run that was stopped or killed does not stop the others.
 $MAKE -k -C "$folder" -f "$PWD/sweep/rows.mk" || true
 "$PYTHON" sweep/sweep.py conclude "$folder" "${options[@]}" ${SWEEP_FOLDER:+--no-figures}

@@ -10,12 +10,14 @@ import tempfile
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(workflows / "sweep"), str(workflows / "level")]
-from assessment import Outcome, checks_of, outcomes_of, with_absent
+from assessment import MECHANISMS as ON_LEVEL
+from assessment import Outcome, checks_of, outcomes_of, reduction_options, said_of_options, said_of_others, with_absent
 from bounds import bounds
-from critical_level import crossing, replay, search
+from chart import CURVES, WIDTH
+from critical_level import crossing, draw, replay, search
 from expectations import expect, expect_near, finish
-from fragility import with_any
-from levels import Study, changes_in
+from fragility import draw_chart, groups_of, with_any
+from levels import Study, changes_in, named_warnings
 from problems import InputError
 
 FROM, TO, SCAN, TOLERANCE = 1.0, 4.0, [1.0, 1.75, 2.5, 3.25, 4.0], 0.03
@@ -33,7 +35,7 @@ MECHANISMS = {
     "backward-erosion": (lambda h: of_factor(None if h < 2.0 else 3.3 / h), 3.3),
     "slope": (lambda h: Outcome(True, None, said="no equilibrium") if h > 2.9 else of_factor(1.01 + 0.1 * (2.9 - h)), 2.9),
     "hyd-forces": (lambda h: of_factor(0.4 + 0.3 * h), None),  # grows from below 1: has begun at FROM
-    "filter": (lambda h: of_factor(None), None),
+    "blanket": (lambda h: of_factor(None), None),
     "hyd-stresses": (lambda h: of_factor(8.0 / h), None),
 }
 
@@ -51,7 +53,7 @@ def study_of(mechanisms, silent=lambda name, h: False):
 
 
 def check_search():
-    kinds = {"hyd-forces": "below", "filter": "absent", "hyd-stresses": "above"}
+    kinds = {"hyd-forces": "below", "blanket": "absent", "hyd-stresses": "above"}
     for name, (_, exact) in MECHANISMS.items():
         known, rounds = study_of([name])
         found = search(name, known, (FROM, TO))
@@ -166,7 +168,7 @@ def check_scenes():
 
 
 # Tables of `suffuse-post check`, and what they say: with units in brackets, in parentheses, in a line of their own, or without.
-CHECKS = [header + "heave,toe,i_cr,0,1,2,2.0,0,0\nheave,base,i_cr,0,4,2,0.5,0,0\nfilter,a to b,,,,,,,\n" for header in (
+CHECKS = [header + "heave,toe,i_cr,0,1,2,2.0,0,0\nheave,base,i_cr,0,4,2,0.5,0,0\nuplift,cover,,,,,,,\nfilter,a to b,,,,,0.4,,\n" for header in (
     "mechanism,where,clause,t [s],effect,resistance,factor [-],x [m],y [m]\n",
     "mechanism,where,clause,t (s),effect,resistance,factor (-),x (m),y (m)\n",
     "mechanism,where,clause,t,effect,resistance,factor,x,y\n#,,,s,,,,m,m\n",
@@ -197,7 +199,7 @@ def check_outcomes():
             found = checks_of(stem)
             expect("the worst place counts, with or without units", (True, 0.5, "base"),
                    (found["heave"].fails, found["heave"].factor, found["heave"].place))
-            expect("an empty factor is none", (False, None), (found["filter"].fails, found["filter"].factor))
+            expect("an empty factor is none", (False, None), (found["uplift"].fails, found["uplift"].factor))
         for word, message, said, factor, states, expected in SLOPES:
             stem.with_name("0001.status").write_text(word)
             os.utime(stem.with_name("0001.status"), (1.0, 1.0))
@@ -207,8 +209,8 @@ def check_outcomes():
             slope = found.get("slope")
             expect(f"slope: {word} {message} {said} {factor}", expected, slope and (slope.fails, slope.factor))
             if word == "failed":
-                expect("a run that failed has shown its start, or what had begun", {"heave", "filter"} if states == "start" else {"heave"},
-                       found.keys() - {"slope"})
+                expect("a run that failed has shown its start, or what had begun, and filters are no mechanism of a level",
+                       {"heave", "uplift"} if states == "start" else {"heave"}, found.keys() - {"slope"})
 
 
 def check_absent():
@@ -220,6 +222,93 @@ def check_absent():
     expect("any of them fails, does not, or is not known", [Outcome(False), Outcome(True), None],
            [with_any(run, ["heave", "slope"]).get("any of them") for run in (found[1], found[2], found[3])])
     expect("and there is no slope that was not looked at", {"heave"}, set(found[4]))
+    both = ["erosion", "heave"]
+    expect("erosion alone is no breach", (True, False), tuple(
+        with_any({"erosion": Outcome(True), "heave": Outcome(False)}, both)[name].fails for name in ("any of them", "any but erosion")))
+    expect("nor known to be none", {"erosion", "any of them"}, set(with_any({"erosion": Outcome(True)}, both)))
+    expect("without erosion, or with nothing else, there is no such line", [["any of them"], []],
+           [list(groups_of(names)) for names in (["heave", "slope"], ["erosion"])])
+
+
+# Of filters, gradations and losses, in two runs.
+OTHERS = ["mechanism,where,factor\nheave,toe,0.5\nloss,sand,\nfilter,sand -> lens,2\nfilter,lens -> sand,0.9\nfilter-drainage,sand -> lens,0.434\n"
+          f"filter-retention,sand -> lens,3\ninternal-stability,sand,{last}\n" for last in (0.8, 1.2)]
+
+
+def check_others():
+    with tempfile.TemporaryDirectory() as name:
+        stems = [pathlib.Path(name) / run for run in ("0001", "0002")]
+        for stem, text in zip(stems, OTHERS):
+            stem.with_name(f"{stem.name}.check.csv").write_text(text)
+        expect("checks that do not depend on the level are said once, with factor and place",
+               "filter lens -> sand has a factor of 0.9 and is exceeded; filter drainage sand -> lens has a factor of 0.434 and is exceeded; "
+               "internal stability sand has a factor of 0.8 to 1.2 and is exceeded in 1 of 2 runs; filter retention holds", said_of_others(stems))
+        stems[0].with_name("0001.check.csv").write_text("mechanism,where,factor\nfilter,a,2\nfilter-retention,a,3\n")
+        expect("or that they hold", "filter and filter retention hold", said_of_others(stems[:1]))
+        stems[0].with_name("0001.check.csv").write_text("mechanism,where,factor\nheave,toe,0.5\nloss,sand,\n")
+        expect("and nothing of none", "", said_of_others(stems[:1]))
+
+
+def reduction(region="", deeper="", keys=(), states="start", **scene):
+    os.environ["REGION"], os.environ["DEEPER"] = region, deeper
+    try:
+        return reduction_options({"gravity": [0.0, -9.81], "soil": SOILS} | scene, list(keys), states)
+    except InputError as error:
+        return str(error)
+    finally:
+        os.environ["REGION"] = os.environ["DEEPER"] = ""
+
+
+SOILS = {"sand": {"skeleton": {"law": "mohr-coulomb"}}, "clay": {"like": "sand"}, "rock": {"skeleton": {"law": "rigid"}}, "fill": {"like": "rock"}, "a b": {}}
+
+
+def check_reduction():
+    expect("no options", [], reduction())
+    expect("soils that fail, in the order of their names, and a depth", "--region clay --region sand --deeper 0.5",
+           " ".join(reduction("sand clay sand", "0.50")))
+    expect("said as", "only clay and sand can fail, other soil is elastic, and bodies within 0.5 m of the surface are left out",
+           said_of_options(reduction("sand clay", "0.5")))
+    soils = "expected soils with a strength, with spaces between several: clay or sand"
+    expect("no such soil", f"REGION: got 'sant'; {soils}; did you mean sand?", reduction("sant"))
+    expect("soil that does not fail", f"REGION: got 'fill'; {soils}", reduction("fill"))
+    expect("unless it gets a strength", ["--region", "fill"], reduction("fill", keys=["soil.rock.skeleton.law"]))
+    for text in ("0", "-1", "nan", "inf", "deep"):
+        expect("a depth that is none", f"DEEPER: got '{text}'; expected a depth above 0, m", reduction("", text))
+    expect("a depth without weight", "DEEPER: got '1'; expected a scene with gravity; this one has none", reduction("", "1", gravity=[0.0, 0.0]))
+    expect("no factor", "REGION: got 'sand' without FACTOR; expected FACTOR=1, all or start beside it", reduction("sand", states=""))
+    expect("checks alone", "DEEPER: got '1' with FACTOR=checks; expected FACTOR=start, last or all beside it", reduction("", "1", states="checks"))
+
+
+def check_warnings():
+    with tempfile.TemporaryDirectory() as name:
+        folder, rows = pathlib.Path(name), [{"run": f"000{number}"} for number in range(1, 4)]
+        for row, level in zip(rows, (1, 200, 300)):
+            stem = folder / "runs" / row["run"] / row["run"]
+            stem.parent.mkdir(parents=True)
+            head = f"suffuse-mesher: warning: --set boundary[0].head={level}: boundary[0].head: {level} m is much\n" if level > 1 else ""
+            stem.with_name(f"{stem.name}.log").write_text(f"x.case.h5\n{head}suffuse-solver: warning: soil2 is coarse\n" + head)
+            stem.with_name(f"{stem.name}.assessed").write_text("warning: suction up to 5 Pa\nfactor: none: warning: no\n" if level == 1 else "")
+        expect("warnings of the runs, each once", ["warning: soil2 is coarse (3 of 3 runs)", "warning: suction up to 5 Pa (1 of 3 runs)",
+               "warning: boundary[0].head: 200 m is much (2 of 3 runs; these are the numbers of 0002)"], named_warnings(folder, rows))
+        expect("a run that was not made has none", [], named_warnings(folder, [{"run": "0009"}]))
+
+
+def check_charts():
+    with tempfile.TemporaryDirectory() as name:
+        path = pathlib.Path(name) / "chart.svg"
+        known = {level: {"heave": of_factor(9.0 - level), "uplift": of_factor(6.0 - level), "slope": of_factor(2.0 - level)} for level in (1.0, 4.0)}
+        draw(path, known, ["heave", "uplift", "slope"], [{"mechanism": "slope", "level": "1"}])
+        entries = [line.partition(">")[2].removesuffix("</text>") for line in path.read_text().splitlines() if line.startswith("<text")]
+        expect("a curve above the chart is said to be there", ["heave, above 4", "uplift", "slope, from 1 m"], entries[-3:])
+        names = ["heave", "uplift", "slope", "any of them"]
+        table = [[name, level, 1, 0, "0" if place < 2 else f"{0.2 * place}", "0", "0.9", 0] for place, name in enumerate(names) for level in ("2.6", "4.4")]
+        draw_chart(path, table, names, [2.6, 4.4])
+        text = path.read_text()
+        sides = [float(line.partition("M")[2].split()[0]) for line in text.splitlines() if line.startswith('<g clip-path')]
+        expect("equal curves are one, which is said", (3, True), (len(sides), "Mechanisms with the same numbers share a curve." in text))
+        expect("points are at most 1 % of the axis beside their level", True, max(sides) - min(sides) <= 0.02 * WIDTH + 0.1)
+        expect("and the axis has the levels", [">2.6<", ">4.4<"], [mark for mark in (">2.6<", ">3<", ">4.4<") if mark in text])
+    expect("each mechanism has a curve of its own, and so have two groups", True, len(CURVES) >= len(ON_LEVEL) + 2)
 
 
 if __name__ == "__main__":
@@ -228,4 +317,8 @@ if __name__ == "__main__":
     check_scenes()
     check_outcomes()
     check_absent()
+    check_others()
+    check_reduction()
+    check_warnings()
+    check_charts()
     finish("levels, probabilities and what runs say of them")

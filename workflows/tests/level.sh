@@ -74,6 +74,35 @@ run_make critical-level "${column[@]}" FROM=1.6 TO=2 SCAN=2 NAME=ends
 expect 'a level below FROM' 'Erosion begins below FROM = 1.6 m: its factor is 0.833 there. It governs.' "$(said 'Erosion.*')"
 expect 'a level above TO' 'heave begins above TO = 2 m: its factor is 1.19 there.' "$(said 'heave begins.*')"
 
+# What the mesher warns of is in the logs of the runs.
+run_make critical-level "${column[@]}" FROM=1.6 TO=400 SCAN=2 NAME=high FACTOR=checks
+expect 'warnings of the runs are shown' 'critical_level.py: warning: boundary[0].head: 400 m, and the model lies between 0 and 1 m' \
+  "$(grep -o 'critical_level.py: warning: boundary.* 1 m' "$work/make.log")"
+expect 'at the end' 'critical_level.py: warning' "$(grep -v '^make' "$work/make.log" | tail -1 | grep -o '^critical_level.py: warning')"
+
+# Gravel over silt: no filter, whatever the level.
+cat > layers.geo <<'END'
+Point(1) = {0, 0, 0};  Point(2) = {0.25, 0, 0};  Point(3) = {0.25, 0.5, 0};
+Point(4) = {0.25, 1, 0};  Point(5) = {0, 1, 0};  Point(6) = {0, 0.5, 0};
+Line(1) = {1, 2};  Line(2) = {2, 3};  Line(3) = {3, 4};  Line(4) = {4, 5};  Line(5) = {5, 6};  Line(6) = {6, 1};  Line(7) = {6, 3};
+Curve Loop(1) = {1, 2, -7, 6};  Plane Surface(1) = {1};  Physical Surface("silt") = {1};
+Curve Loop(2) = {7, 3, 4, 5};  Plane Surface(2) = {2};  Physical Surface("gravel") = {2};
+Physical Curve("bottom") = {1};  Physical Curve("top") = {4};
+END
+sed 's/^geometry.*/geometry.file = "layers.geo"/; s/, {on = "left", darcy_flux = 0.0}//; s/soil.specimen/soil.silt/' "a column.toml" > layers.toml
+cat >> layers.toml <<'END'
+gradation = [[0.002, 0], [0.01, 15], [0.05, 85], [0.1, 100]]
+[soil.gravel]
+like = "silt"
+gradation = [[2.0, 0], [4.0, 15], [20.0, 85], [40.0, 100]]
+END
+out="$work/o ut/critical-level/layers"
+run_make critical-level SCENE=layers.toml BOUNDARY=bottom FROM=1.1 TO=1.9 SCAN=2 TOLERANCE_LEVEL=0.1
+expect 'filters do not depend on the level' "0 $(printf '%s\n' erosion heave hyd-stresses hyd-forces)" "$code $(sed 1d "$out/critical.csv" | cut -d, -f1)"
+expect 'and are said once' 'Not part of the search, as they do not depend on the level: filter retention silt -> gravel has a factor of 0.05 and is exceeded; filter drainage holds.' \
+  "$(grep 'filter\|loss' "$out/report.md" | sed 's/filter silt -> gravel has a factor of [0-9.]* and is exceeded; //')"
+expect 'they have no column' '' "$(head -1 "$out/levels.csv" | grep -o 'filter' || true)"
+
 # Sand without cohesion is lifted where heave begins: there it has no equilibrium, and no factor.
 sed 's/"bottom"/"bottom", fix = "both"/; s/"left", darcy_flux = 0.0/"left", fix = "normal"}, {on = "right", fix = "normal"/; /^erosion/d' "a column.toml" > lifted.toml
 cat >> lifted.toml <<'END'
@@ -82,7 +111,33 @@ END
 out="$work/o ut/critical-level/lifted"
 run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2 TOLERANCE_LEVEL=0.1
 expect 'soil that fails is an answer' '0 between' "$code $(awk -F, '$1 == "slope" && $3 <= 2.19 && 2.19 <= $4 && $4 - $3 <= 0.1000001 { print "between" }' "$out/critical.csv")"
+expect 'what is not checked where soil moves is said' 'Heave by EN 1997-1 and uplift are not checked where soil moves' "$(said 'Heave by EN.*soil moves')"
 expect 'with its message' 'it fails without a factor: ' "$(said 'it fails without a factor: ')"
+
+# A skin that does not slide has a larger factor; it is found again when the depth changes, and when it goes.
+printf '%s\n' 'boundary[0].head' 1.8 > head.csv
+out="$work/o ut/sweep/head"
+factors=()
+for options in '' 'REGION=specimen' 'REGION=specimen DEEPER=0.3' ''; do
+  before=$(statuses "$out" 2> /dev/null || true)
+  IFS=' ' read -ra given <<< "$options"
+  run_make sweep SCENE=lifted.toml SWEEP=head.csv FACTOR=start "${given[@]}"
+  factors+=("$(tail -1 "$out/0001/0001.factors.csv" | cut -d, -f2)")
+  expect "factors of '$options' are made again, and no run" "assessed$([ -n "$before" ] || echo ' status')" \
+    "$(comm -13 <(echo "$before") <(statuses "$out") | sed 's/ .*//; s/.*[.]//' | xargs)"
+done
+expect 'the only soil is all soil, a skin that holds helps' 'same more same' \
+  "$(awk -v a="${factors[0]}" -v b="${factors[1]}" -v c="${factors[2]}" -v d="${factors[3]}" \
+    'BEGIN { print (a == b ? "same" : a " " b), (c > 1.05 * b ? "more" : c " " b), (d == a ? "same" : d) }')"
+run_make sweep SCENE=lifted.toml SWEEP=head.csv FACTOR=start REGION=soil NAME=refused
+expect 'no such soil' "2 REGION: got 'soil'; expected soils with a strength, with spaces between several: specimen none" \
+  "$code $(grep ^REGION "$work/make.log") $(ls "$work/o ut/sweep/refused" 2> /dev/null || echo none)"
+run_make sweep SCENE=lifted.toml SWEEP=head.csv DEEPER=1 NAME=refused
+expect 'a depth without a factor' "2 DEEPER: got '1' without FACTOR; expected FACTOR=1, all or start beside it" "$code $(grep ^DEEPER "$work/make.log")"
+run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.1 TO=1.8 SCAN=2 TOLERANCE_LEVEL=0.7 NAME=skin REGION=specimen DEEPER=0.3
+expect 'the report says what is left out' \
+  'Of the slope, only specimen can fail, other soil is elastic, and bodies within 0.3 m of the surface are left out.' "$(said 'Of the slope.*')"
+expect 'and the slope is that factor' "${factors[2]}" "$(tail -1 "$work/o ut/critical-level/skin/runs/0002/0002.factors.csv" | cut -d, -f2)"
 
 # A flood of 20 s: erosion begins at its highest head, as nothing is stored. The level is the same as under a steady head.
 sed 's/head = 1.5/head = [[0, 1.0], [10, 2.0], [20, 1.0]]/; s/^initial.*/initial.water_level = 1.0/; s/^time.*/time.end = 20.0/
@@ -118,7 +173,7 @@ for row in csv.DictReader(open(f"{sys.argv[1]}/fragility.csv")):
         print("yes" if exact and counted else f"{row} {draws}", end=" " if gradient < 0.5 else "")
 END
 )"
-expect 'each mechanism, and any of them' "$(printf '%s\n' 'any of them' erosion heave hyd-forces hyd-stresses mechanism)" "$(cut -d, -f1 "$out/fragility.csv" | sort -u)"
+expect 'each mechanism, and any of them' "$(printf '%s\n' 'any but erosion' 'any of them' erosion heave hyd-forces hyd-stresses mechanism)" "$(cut -d, -f1 "$out/fragility.csv" | sort -u)"
 expect 'files' "$(printf '%s\n' draws.csv fragility.csv fragility.svg report.md runs table.csv)" "$(ls "$out")"
 for table in fragility.csv draws.csv runs/sweep.csv; do cp "$out/$table" "$work/${table##*/}"; done
 rm -rf "$out"
@@ -170,6 +225,11 @@ refused 'levels that fall' "fragility.py: LEVELS: got '3,1'; expected rising num
   fragility "${column[@]}" LEVELS=3,1 SWEEP=draws.csv
 refused 'draws of the head' "fragility.py: $PWD/heads.csv: boundary[0].head: got a key that this study sets; expected other keys: \
 the level is that of LEVELS, others are in SET" fragility "${column[@]}" LEVELS=1,3 SWEEP=heads.csv
+refused 'a depth that is none' "critical_level.py: DEEPER: got '0'; expected a depth above 0, m" \
+  critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1 TO=3 DEEPER=0
+refused 'soil that does not fail' \
+  "fragility.py: REGION: got 'specimen'; expected soils with a strength, with spaces between several: a scene with such a soil; this one has none" \
+  fragility "${column[@]}" LEVELS=1,3 SWEEP=draws.csv REGION=specimen
 expect 'nothing is written' none "$(ls "$work/o ut/critical-level/refused" "$work/o ut/fragility/refused" 2> /dev/null || echo none)"
 refused 'keys that the mesher refuses' "critical_level.py: no run can be made: --set soil.specimen.porosity=2: soil.specimen.porosity: \
 got 2; expected a number with 0 < n_0 < 1" \
