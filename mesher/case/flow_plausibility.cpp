@@ -2,6 +2,7 @@
 
 #include "case/plausibility_base.hpp"
 #include "common/short_number.hpp"
+#include "mesh/faces.hpp"
 
 namespace suffuse {
 namespace {
@@ -16,6 +17,11 @@ constexpr double heaviest_rain = 1e-3;
 /// latter is more than `noticed` Pa.
 constexpr double least_pressure = 2e-3;
 constexpr double noticed = 1e3;
+/// Height of water above the crest, in model heights: round-off.
+constexpr double crest_margin = 1e-6;
+/// Upward part of the unit normal of faces that lean by 5 degrees, and rise by 5 degrees.
+constexpr double nearly_upright = 0.087;
+constexpr double nearly_level = 0.996;
 
 template <int Dim>
 class Flow : private PlausibilityBase<Dim> {
@@ -82,6 +88,7 @@ class Flow : private PlausibilityBase<Dim> {
     if (b.head) {
       check_head(joined(b.key, given(joined(b.key, "file")) ? "file" : "head"),
                  b.head->range(0.0, end).second);
+      check_crest(b);
     }
     if (b.rain) check_rain(joined(b.key, "rain"), b.rain->range(0.0, end).second);
     if (b.pressure) {
@@ -103,6 +110,35 @@ class Flow : private PlausibilityBase<Dim> {
               : "the model is " + short_number(size) + " m long";
     warn(key, short_number(head) + " m, and " + model + "; up to " + short_number(usual) +
                   " m above it are usual");
+  }
+
+  /// Water that stands on a slope and is higher than the model would flow over it, to where water
+  /// seeps out.
+  void check_crest(const BoundaryCondition& b) {
+    const auto seeps = [](const BoundaryCondition& other) { return other.seepage_face; };
+    const bool has_free_water = std::ranges::any_of(
+        mesh_.region_names, [&](const auto& region) { return scene_.is_free_water(region); });
+    if (!has_gravity(scene_.gravity) || has_free_water || !is_slope(b.on) ||
+        std::ranges::none_of(scene_.boundaries, seeps)) {
+      return;
+    }
+    const double head = b.head->range(0.0, scene_.time.end).second;
+    const double crest = this->heights().second;
+    if (head <= crest + crest_margin * this->height_of_model()) return;
+    warn(joined(b.key, given(joined(b.key, "file")) ? "file" : "head"),
+         short_number(head) + " m, and the highest ground is at " + short_number(crest) +
+             " m: water would flow over it, which no result takes into account");
+  }
+
+  /// Whether a boundary has a face that is neither level nor upright.
+  [[nodiscard]] bool is_slope(const std::string& boundary) const {
+    const auto found = std::ranges::find(mesh_.boundaries, boundary, &BoundarySet<Dim>::name);
+    if (found == mesh_.boundaries.end()) return false;
+    const Vector<Dim> up = -Eigen::Map<const Vector<Dim>>(scene_.gravity.data()).normalized();
+    return std::ranges::any_of(found->faces, [&](const auto& face) {
+      const double upward = std::abs(face_normal<Dim>(mesh_, face).normalized().dot(up));
+      return upward > nearly_upright && upward < nearly_level;
+    });
   }
 
   void check_rain(const std::string& key, double rain) {

@@ -17,6 +17,10 @@ std::array<int, Dim> face_key(std::array<int, Dim> nodes);
 template <int Dim>
 std::array<int, Dim> face_opposite(const std::array<int, Dim + 1>& element, int corner);
 
+/// A vector normal to a face, of any length, to either side.
+template <int Dim>
+Vector<Dim> face_normal(const Mesh<Dim>& mesh, const std::array<int, Dim>& face);
+
 /// Keys of the faces of every element, sorted: a key occurs once when its face is outer, twice when
 /// it lies between two elements.
 template <int Dim>

@@ -54,6 +54,7 @@ class Gaps {
   [[nodiscard]] std::string initiation() const {
     std::string text = "concentrated leaks through cracks, contact erosion along joints";
     if (!has("erosion")) text += ", suffusion (no soil erodes)";
+    if (!has("internal-stability")) text += ", internal stability (no soil has a gradation)";
     if (!has("heave")) text += ", heave (water rises at no boundary that it leaves through)";
     if (!has("hyd-forces")) {
       text += scene_.moves() ? ", heave by EN 1997-1 (the soil moves)"
@@ -158,6 +159,7 @@ CheckReport check_run(const ResultsReader& results, const CheckSettings& setting
   add([&] { return heave_checks(results); });
   add([&] { return column_checks(results, settings); });
   add([&] { return blanket_checks(results, settings.blanket); });
+  add([&] { return stability_checks(results); });
   add([&] { return filter_checks(results); });
   add([&] { return backward_erosion_checks(results, settings.backward_erosion); });
   report.not_looked_at = Gaps(results, report, settings).sentences();

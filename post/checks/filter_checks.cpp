@@ -82,47 +82,87 @@ CheckRow ratio_row(const std::string& mechanism, const std::string& where, const
   return row;
 }
 
-void add_pair(std::vector<CheckRow>& rows, const Soil& base, const Soil& filter) {
-  const std::string where = base.region + " -> " + filter.region;
-  const auto d15 = size_at(filter.gradation, 15.0);
-  if (!d15) {
-    CheckRow row{.mechanism = "filter", .where = where, .clause = "Foster and Fell (2001)"};
-    row.note = "D15 of " + filter.region + " is below the sizes of its gradation: not judged";
-    rows.push_back(row);
-    return;
-  }
-  const auto known = erosion_boundaries(base.gradation);
-  if (!known) {
-    CheckRow row{.mechanism = "filter", .where = where, .clause = "Foster and Fell (2001)"};
-    row.note = "the gradation of " + base.region +
-               " begins above the sizes that decide, 0.075 mm and D85: not judged";
-    rows.push_back(row);
-    return;
-  }
-  const ErosionBoundaries& boundaries = *known;
+/// A row that says why a filter is not judged.
+CheckRow row_without_factor(const std::string& where, const std::string& why) {
   CheckRow row{.mechanism = "filter", .where = where, .clause = "Foster and Fell (2001)"};
-  row.effect = *d15;
+  row.note = why + ": not judged";
+  return row;
+}
+
+CheckRow erosion_row(const std::string& where, double d15, const ErosionBoundaries& boundaries) {
+  CheckRow row{.mechanism = "filter", .where = where, .clause = "Foster and Fell (2001)"};
+  row.effect = d15;
   row.resistance = boundaries.none;
   row.unit = "mm";
-  row.factor = boundaries.none / *d15;
+  row.factor = boundaries.none / d15;
   row.note =
-      class_of(*d15, boundaries) + "; D15 = " + short_text(*d15) + " mm, boundaries " +
+      class_of(d15, boundaries) + "; D15 = " + short_text(d15) + " mm, boundaries " +
       short_text(boundaries.none) + " (none)" +
       (boundaries.excessive ? ", " + short_text(*boundaries.excessive) + " (excessive)" : "") +
       ", " + short_text(boundaries.continuing) + " mm (continuing)";
-  rows.push_back(row);
+  return row;
+}
+
+void add_pair(std::vector<CheckRow>& rows, const Soil& from, const Soil& filter) {
+  const std::string where = from.region + " -> " + filter.region;
+  const auto d15 = size_at(filter.gradation, 15.0);
+  if (!d15) {
+    rows.push_back(row_without_factor(
+        where, "D15 of " + filter.region + " is below the sizes of its gradation"));
+    return;
+  }
+  const FilterBase base = filter_base(from.gradation);
+  const auto boundaries = erosion_boundaries(base.gradation);
+  if (!boundaries) {
+    rows.push_back(
+        row_without_factor(where, "the gradation of " + from.region +
+                                      " begins above the sizes that decide, 0.075 mm and D85"));
+    return;
+  }
+  rows.push_back(erosion_row(where, *d15, *boundaries));
+  if (base.finer < 100.0) {
+    rows.back().note += "; the base is the finest " + three_digits(base.finer) + " % of " +
+                        from.region + ", whose coarse grains do not hold them";
+  }
   if (const auto ratio = retention_ratio(base.gradation, filter.gradation)) {
     rows.push_back(
         ratio_row("filter-retention", where, "D15F / D85B <= 4", *ratio, terzaghi_ratio));
   }
   // Soil that is finer than the base holds it, and is not there to drain it.
-  const auto ratio = drainage_ratio(base.gradation, filter.gradation);
+  const auto ratio = drainage_ratio(from.gradation, filter.gradation);
   if (ratio && *ratio > 1.0) {
     rows.push_back(ratio_row("filter-drainage", where, "D15F / D15B >= 4", terzaghi_ratio, *ratio));
   }
 }
 
 }  // namespace
+
+std::vector<CheckRow> stability_checks(const ResultsReader& results) {
+  std::vector<CheckRow> rows;
+  for (const std::string& region : results.regions()) {
+    const Soil* soil = results.scene().scene.find_soil(region);
+    if (soil == nullptr || soil->gradation.empty()) continue;
+    const GradingVerdict verdict = check_kenney_lau(soil->gradation);
+    CheckRow row{.mechanism = "internal-stability",
+                 .where = region,
+                 .clause = "Kenney and Lau (1986), H / F >= 1"};
+    if (verdict.stability != Stability::unknown && std::isfinite(verdict.value)) {
+      row.effect = 1.0;
+      row.resistance = verdict.value;
+      row.unit = "1";
+      row.factor = verdict.value;
+    }
+    std::string others;
+    for (const GradingVerdict& other : check_grading(soil->gradation)) {
+      if (other.check == verdict.check) continue;
+      others += (others.empty() ? "" : "; ") + other.check + ": " + stability_text(other);
+    }
+    row.note =
+        stability_text(verdict) + (row.factor ? "; " : ", " + verdict.reason + "; ") + others;
+    rows.push_back(row);
+  }
+  return rows;
+}
 
 std::vector<CheckRow> filter_checks(const ResultsReader& results) {
   const Scene& scene = results.scene().scene;

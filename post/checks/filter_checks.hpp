@@ -1,6 +1,7 @@
 #pragma once
 
-/// Filters: soils with a gradation next to each other, where water flows from one into the other.
+/// What gradations say: whether the fines of a soil can move between its coarse grains, and whether
+/// a soil next to another holds back what water washes out of it.
 
 #include <vector>
 
@@ -9,7 +10,11 @@
 namespace suffuse {
 
 /// Rows of `filter`, `filter-retention` and `filter-drainage` for each such pair, by the direction
-/// of the flow from one into the other in the last snapshot. Throws FileError.
+/// of the flow from one into the other in any snapshot. Throws FileError.
 std::vector<CheckRow> filter_checks(const ResultsReader& results);
+
+/// Rows of `internal-stability` for each region with a gradation: H/F of Kenney and Lau, which is
+/// at least 1 where coarse grains hold the fines; the note has the verdicts of the other criteria.
+std::vector<CheckRow> stability_checks(const ResultsReader& results);
 
 }  // namespace suffuse

@@ -64,6 +64,20 @@ std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
 
 }  // namespace
 
+FilterBase filter_base(const Gradation& soil) {
+  const std::optional<FinesContent> fines = fines_content(soil);
+  const bool is_unstable = check_kenney_lau(soil).stability == Stability::unstable ||
+                           check_kezdi(soil).stability == Stability::unstable;
+  if (!is_unstable || !fines) return {soil};
+  std::vector<GradationPoint> points;
+  for (const GradationPoint& point : soil.points()) {
+    if (point.size >= fines->size) break;
+    points.push_back({point.size, 100.0 * point.finer / fines->finer});
+  }
+  points.push_back({fines->size, 100.0});
+  return {Gradation(points), fines->finer};
+}
+
 std::optional<ErosionBoundaries> erosion_boundaries(const Gradation& base) {
   const RegradedBase regraded(base);
   if (!regraded.is_known()) return std::nullopt;

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "scene/gradation.hpp"
+#include "scene/grading_checks.hpp"
 
 namespace suffuse {
 
@@ -25,6 +25,14 @@ struct ErosionBoundaries {
 /// a margin). excessive, continuing: Foster and Fell (2001).
 /// Nothing where the gradation begins above the sizes that decide.
 std::optional<ErosionBoundaries> erosion_boundaries(const Gradation& base);
+
+/// What a filter has to hold: of a soil that is unstable by Kenney and Lau's or Kezdi's criterion
+/// only its fines, as the coarse grains do not hold them (ICOLD bulletin 164); otherwise all of it.
+struct FilterBase {
+  Gradation gradation;
+  double finer = 100.0;  ///< share of the soil, per cent
+};
+FilterBase filter_base(const Gradation& soil);
 
 /// Size that `percent` of the mass are finer than, mm; nothing where the gradation begins above
 /// that.

@@ -1,6 +1,5 @@
 #include "checks/heave_safety.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -45,20 +44,10 @@ std::vector<double> coordinates(const Position& x) {
 }
 
 template <int Dim>
-Vector<Dim> normal_of(const Mesh<Dim>& mesh, const std::array<int, Dim>& face) {
-  const Vector<Dim> side = mesh.nodes[face[1]] - mesh.nodes[face[0]];
-  if constexpr (Dim == 2) {
-    return {side[1], -side[0]};
-  } else {
-    return side.cross(mesh.nodes[face[2]] - mesh.nodes[face[0]]);
-  }
-}
-
-template <int Dim>
 OuterFace outer_face(const Mesh<Dim>& mesh, const std::array<int, Dim>& nodes, int element) {
   Vector<Dim> centre = Vector<Dim>::Zero();
   for (const int node : nodes) centre += mesh.nodes[node] / Dim;
-  Vector<Dim> normal = normal_of<Dim>(mesh, nodes);
+  Vector<Dim> normal = face_normal<Dim>(mesh, nodes);
   if (normal.dot(element_centroid(mesh, element) - centre) > 0.0) normal = -normal;
   return {element, coordinates(centre), coordinates(normal)};
 }

@@ -1,7 +1,10 @@
 /// The subcommand `report`.
 
+#include <filesystem>
+
 #include "commands/command.hpp"
 #include "report/report.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
@@ -24,6 +27,11 @@ void declare_report(CLI::App& command, ReportOptions& o) {
 }
 
 void report(const ReportOptions& o) {
+  const std::string suffix = std::filesystem::path(o.output).extension().string();
+  if (suffix != ".html" && suffix != ".htm") {
+    refuse("suffuse-post report", "-o", '"' + o.output + '"',
+           "a name that ends in .html; browsers print it as PDF");
+  }
   const auto runs = open_all(o.results);
   for (const auto& run : runs) refuse_inside(run, "-o", o.output);
   write_report(runs, o.output, o.tables);

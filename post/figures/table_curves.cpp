@@ -79,14 +79,26 @@ ColumnName parse_column(const std::string& text) {
   return name;
 }
 
-/// The parts of the first table of a run that has the column.
-std::vector<NamedTable> find_parts(const ResultsReader& run, const ColumnName& name) {
+/// What figures call a part of a table.
+std::string label_of_part(const ResultsReader& run, const std::string& table,
+                          const std::string& part) {
+  if (table == "sections") return "section " + part;
+  if (table != "probes") return part;
+  const OutputProbe& probe = run.scene().scene.output.probes[std::stoul(part)];
+  std::string text;
+  for (int d = 0; d < run.dimension(); ++d) text += (d == 0 ? "" : ", ") + short_text(probe.at[d]);
+  return "probe " + part + " at (" + text + ")";
+}
+
+/// The parts of the first table of a run that has the column, and the table's name.
+std::pair<std::string, std::vector<NamedTable>> find_parts(const ResultsReader& run,
+                                                           const ColumnName& name) {
   std::vector<std::string> known;
   for (const std::string& table : table_names) {
     if (!name.table.empty() && table != name.table) continue;
     std::vector<NamedTable> parts = read_parts(run, table);
     if (parts.empty()) continue;
-    if (parts.front().table.has(name.column)) return parts;
+    if (parts.front().table.has(name.column)) return {table, parts};
     for (const std::string& column : parts.front().table.names) {
       if (std::ranges::find(known, column) == known.end()) known.push_back(column);
     }
@@ -144,23 +156,40 @@ Curve table_curve(const Table& table, const std::string& x, const std::string& y
   return curve;
 }
 
+/// Numbers of styles by label: charts share a legend, so one label has one style in all of them.
+class LabelStyles {
+ public:
+  std::size_t number(const std::string& label) {
+    const auto found = std::ranges::find(labels_, label);
+    const auto number = static_cast<std::size_t>(found - labels_.begin());
+    if (found == labels_.end()) labels_.push_back(label);
+    return number;
+  }
+
+ private:
+  std::vector<std::string> labels_;
+};
+
 Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::string>& labels,
-               const ColumnName& name, const std::string& x) {
+               const ColumnName& name, const std::string& x, LabelStyles& styles) {
   const int dimension = runs.front().dimension();
   Chart chart{name.column + (name.part.empty() ? "" : " of " + name.part),
               x == "t" ? seconds_label : label_of(x, dimension),
               label_of(name.column, dimension),
               {}};
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    for (const NamedTable& part : wanted(find_parts(runs[r], name), name)) {
+    const auto [table, parts] = find_parts(runs[r], name);
+    for (const NamedTable& part : wanted(parts, name)) {
       if (!part.table.has(x)) {
         refuse(curves_command, "--x", '"' + x + '"', quoted_list(part.table.names),
                closest_column(x, part.table.names));
       }
       require_curve(runs[r], part.table, name.text);
-      Curve curve = table_curve(part.table, x, name.column, chart.curves.size());
+      const std::string label =
+          label_of(labels, r, name.part.empty() ? label_of_part(runs[r], table, part.name) : "");
+      Curve curve = table_curve(part.table, x, name.column, styles.number(label));
       remove_missing(curve, name.column);
-      curve.label = label_of(labels, r, name.part.empty() ? part.name : "");
+      curve.label = label;
       chart.curves.push_back(std::move(curve));
     }
   }
@@ -180,9 +209,10 @@ std::vector<Chart> table_curves(const std::vector<ResultsReader>& runs,
   MeasuredPoints measured;
   if (!options.measured.empty()) measured = read_measured(options.measured);
   std::vector<Chart> charts;
+  LabelStyles styles;
   for (const std::string& text : options.columns) {
     const ColumnName name = parse_column(text);
-    charts.push_back(chart_of(runs, labels, name, x));
+    charts.push_back(chart_of(runs, labels, name, x, styles));
     add_measured(measured, x, name.column, labels, charts.back());
   }
   if (!options.measured.empty() && std::ranges::none_of(charts, [](const Chart& chart) {

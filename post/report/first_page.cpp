@@ -1,5 +1,6 @@
 #include "report/first_page.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include "files/number_text.hpp"
 #include "files/table_files.hpp"
 #include "report/html.hpp"
+#include "report/report_pictures.hpp"
 #include "tables/discharge_text.hpp"
 #include "values/time_unit.hpp"
 
@@ -67,6 +69,24 @@ std::string gaps_html(const RunNumbers& numbers) {
   return html::list(gaps);
 }
 
+/// A chart of a table with the columns `t` and `factor`, such as that of --strength-reduction.
+std::string factors_of(const ResultsReader& run, const html::Table& table) {
+  const auto column = [&](const std::string& name) {
+    return std::ranges::find(table.heads, name) - table.heads.begin();
+  };
+  const auto t = static_cast<std::size_t>(column("t"));
+  const auto factor = static_cast<std::size_t>(column("factor"));
+  if (std::max(t, factor) >= table.heads.size()) return "";
+  std::vector<double> times;
+  std::vector<double> factors;
+  for (const auto& row : table.rows) {
+    if (!row[t].value || !row[factor].value || !std::isfinite(*row[factor].value)) continue;
+    times.push_back(*row[t].value);
+    factors.push_back(*row[factor].value);
+  }
+  return times.size() < 2 ? "" : factor_html(run, times, factors);
+}
+
 }  // namespace
 
 std::string first_page(const ResultsReader& run, const RunNumbers& numbers) {
@@ -76,7 +96,7 @@ std::string first_page(const ResultsReader& run, const RunNumbers& numbers) {
          html::element("h3", "Not looked at") + gaps_html(numbers);
 }
 
-std::string table_file_html(const std::string& path) {
+std::string table_file_html(const ResultsReader& run, const std::string& path) {
   std::ifstream in(path);
   if (!in || !std::filesystem::is_regular_file(path)) throw FileError(path + ": cannot be read");
   std::string line;
@@ -104,7 +124,8 @@ std::string table_file_html(const std::string& path) {
     throw InputError(
         InputProblem{path, "--table", "an empty file", "a CSV table with a line of names"});
   }
-  return html::element("h3", std::filesystem::path(path).stem().string()) + table.html();
+  return html::element("h3", std::filesystem::path(path).stem().string()) + table.html() +
+         factors_of(run, table);
 }
 
 }  // namespace suffuse

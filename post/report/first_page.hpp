@@ -15,6 +15,6 @@ std::string first_page(const ResultsReader& run, const RunNumbers& numbers);
 
 /// A CSV file as a table with its name, such as factors of safety or critical levels. Throws
 /// FileError, InputError for a file without a line of names and for rows of other lengths.
-std::string table_file_html(const std::string& path);
+std::string table_file_html(const ResultsReader& run, const std::string& path);
 
 }  // namespace suffuse

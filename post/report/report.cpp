@@ -105,7 +105,7 @@ std::string report_html(const std::vector<ResultsReader>& runs,
   const bool several = runs.size() > 1;
   std::string body = several ? runs_table(labels, runs, numbers) : "";
   if (!several) body = first_page(runs[0], numbers[0]);
-  for (const std::string& path : tables) body += table_file_html(path);
+  for (const std::string& path : tables) body += table_file_html(runs.front(), path);
   body += contents(labels) + "<h2 id=\"curves\">Curves</h2>\n" + curves_html(runs);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     body += "<section class=\"run\" id=\"" + id_of(r) + "\">\n" +

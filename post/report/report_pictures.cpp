@@ -5,9 +5,12 @@
 
 #include "common/errors.hpp"
 #include "common/scratch_folder.hpp"
+#include "drawing/chart.hpp"
 #include "drawing/png_file.hpp"
+#include "figures/axes.hpp"
 #include "figures/figures.hpp"
 #include "figures/render.hpp"
+#include "figures/run_curves.hpp"
 #include "figures/seepage_map.hpp"
 #include "files/number_text.hpp"
 #include "report/html.hpp"
@@ -71,6 +74,38 @@ std::string curve_html(const std::vector<ResultsReader>& runs, const CurveColumn
   draw_figure("curves", runs, path, options);
   return "<figure>" + html::element("figcaption", column.title) +
          card(image(path, column.title + " against time")) + "</figure>\n";
+}
+
+/// Heads at the boundaries that change in time; nothing if none does.
+std::optional<Chart> heads_chart(const ResultsReader& run) {
+  constexpr int intervals = 400;
+  Chart chart{"Heads at the boundaries", seconds_label, "head (m)", {}};
+  const double end = run.times().empty() ? 0.0 : run.times().back();
+  for (const BoundaryCondition& boundary : run.scene().scene.boundaries) {
+    if (!boundary.head) continue;
+    const auto [low, high] = boundary.head->range(0.0, end);
+    if (low == high) continue;
+    Curve curve;
+    for (int k = 0; k <= intervals; ++k) {
+      curve.x.push_back(end * k / intervals);
+      curve.y.push_back(boundary.head->value(curve.x.back()));
+    }
+    curve.color = curve_style(1 + chart.curves.size()).color;
+    curve.label = boundary.on;
+    chart.curves.push_back(std::move(curve));
+  }
+  if (chart.curves.empty()) return std::nullopt;
+  return chart;
+}
+
+std::string heads_html(const ResultsReader& run, const ScratchFolder& folder) {
+  auto chart = heads_chart(run);
+  if (!chart) return "";
+  set_axes({}, "suffuse-post report", *chart);
+  const std::string path = (folder.path() / "heads.png").string();
+  draw_charts({*chart}, path);
+  return "<figure>" + html::element("figcaption", chart->title) +
+         card(image(path, chart->title + " against time")) + "</figure>\n";
 }
 
 /// A field as the report shows it.
@@ -221,9 +256,28 @@ std::string model_html(const ResultsReader& run) {
          "</figure>\n";
 }
 
+std::string factor_html(const ResultsReader& run, const std::vector<double>& times,
+                        const std::vector<double>& factors) {
+  Curve curve;
+  curve.x = times;
+  curve.y = factors;
+  curve.color = curve_style(0).color;
+  Chart chart{"Factor of safety", seconds_label, "factor of safety (-)", {curve}};
+  chart.extra_y = {1.0};
+  std::vector<Chart> charts{chart};
+  if (auto heads = heads_chart(run)) charts.push_back(std::move(*heads));
+  const ScratchFolder folder("suffuse-post");
+  const std::string path = (folder.path() / "factor.png").string();
+  for (Chart& each : charts) set_axes({}, "suffuse-post report", each);
+  draw_charts(charts, path);
+  return "<figure>" + html::element("figcaption", "Factor of safety against time") +
+         card(image(path, "Factor of safety against time")) + "</figure>\n";
+}
+
 std::string curves_html(const std::vector<ResultsReader>& runs) {
   const ScratchFolder folder("suffuse-post");
   std::string charts;
+  if (runs.size() == 1) charts += heads_html(runs.front(), folder);
   for (const CurveColumn& column : curve_columns()) charts += curve_html(runs, column, folder);
   if (charts.empty()) return html::element("p", "There are too few rows for curves yet.");
   return "<div class=\"charts\">" + charts + "</div>\n";
@@ -235,7 +289,8 @@ std::string fields_html(const ResultsReader& run) {
   static const std::vector<ShownField> fields{
       {"porosity", true, "Change of porosity since the start"},
       {"concentration", false, "Concentration of fines in the liquid"},
-      {"safety", false, "Safety against heave; grey: water does not rise"}};
+      {"safety", false,
+       "Safety against heave; where water does not rise it has the colour of the largest"}};
   const ScratchFolder folder("suffuse-post");
   std::string films = head_html(run, snapshots, folder);
   for (const ShownField& field : fields) films += field_html(run, field, snapshots, folder);

@@ -20,6 +20,11 @@ std::string model_html(const ResultsReader& run);
 /// Charts of the columns of tables that all runs have, with a curve per run.
 std::string curves_html(const std::vector<ResultsReader>& runs);
 
+/// Factors of safety at their times, s, next to the heads that change in time at the boundaries of
+/// the run.
+std::string factor_html(const ResultsReader& run, const std::vector<double>& times,
+                        const std::vector<double>& factors);
+
 /// Fields of a run at up to twelve times, with a slider: head, change of porosity, concentration,
 /// safety. A field that is constant in space and time is described by a sentence.
 std::string fields_html(const ResultsReader& run);

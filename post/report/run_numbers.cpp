@@ -34,16 +34,26 @@ std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
 
 std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
   if (numbers.safety.empty()) return "";
-  const auto& least = numbers.safety.front().least;
-  if (!least) return "Water rises nowhere. ";
-  std::string text = "The least safety against heave is " + short_text(least->safety) + ", at " +
-                     place_text(least->place) + " m and t = " + time_text(least->time, unit);
-  if (least->safety < 1.0) {
-    text +=
-        ": below 1 water lifts the soil, and from then on results of a skeleton that stays in "
-        "place mean nothing";
+  const auto place = [&](const LeastSafety& least) {
+    return short_text(least.safety) + ", at " + place_text(least.place) +
+           " m and t = " + time_text(least.time, unit);
+  };
+  // Soil above holds down what rises within the model, so that exits decide.
+  const LeastSafety* exit = nullptr;
+  for (std::size_t k = 1; k < numbers.safety.size(); ++k) {
+    const auto& least = numbers.safety[k].least;
+    if (least && (exit == nullptr || least->safety < exit->safety)) exit = &*least;
   }
-  return text + ". ";
+  std::string text = exit == nullptr ? "Water rises at no boundary that it leaves through. "
+                                     : "The least safety against heave where water leaves is " +
+                                           place(*exit) + ". ";
+  const auto& anywhere = numbers.safety.front().least;
+  if (anywhere && anywhere->safety < 1.0) {
+    text += "In all soil it is " + place(*anywhere) +
+            ": below 1 water lifts soil that nothing holds down, and from then on results of a "
+            "skeleton that stays in place mean nothing. ";
+  }
+  return text;
 }
 
 /// A report has no checks where the run has no gradients yet.

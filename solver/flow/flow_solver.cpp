@@ -191,6 +191,18 @@ void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) con
 }
 
 template <int Dim>
+void FlowSolver<Dim>::limit_at_seepage_faces(const std::vector<double>& face_pressure,
+                                             std::vector<double>& node_pressure) const {
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (conditions_[f].kind != FaceKind::seepage) continue;
+    const bool is_open = face_pressure[f] >= 0.0;
+    for (const int i : grid_.face_nodes[f]) {
+      node_pressure[i] = is_open ? 0.0 : std::min(node_pressure[i], 0.0);
+    }
+  }
+}
+
+template <int Dim>
 void FlowSolver<Dim>::warn_of_suction(double time) {
   constexpr double noticed = -5000.0;  // Pa
   if (suction_warned_ || gravity().norm() == 0.0) return;

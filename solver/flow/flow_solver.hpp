@@ -186,6 +186,10 @@ class FlowSolver {
   }
   /// Sets the pressure of nodes on faces with a prescribed pressure, Pa.
   void prescribe_at_nodes(std::vector<double>& node_pressure) const;
+  /// Sets the pressure of other nodes of open seepage faces to zero, Pa; it is not above zero at
+  /// closed ones.
+  void limit_at_seepage_faces(const std::vector<double>& face_pressure,
+                              std::vector<double>& node_pressure) const;
 
   std::vector<FaceCondition> conditions_;  ///< per face, at the end of the last step
   FlowCoefficients<Dim> coefficients_;

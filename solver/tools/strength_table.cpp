@@ -26,6 +26,9 @@ namespace {
 /// Suction in soil without a retention law above which there is a warning, Pa.
 constexpr double notable_suction = 1e3;
 
+/// A body of fewer elements fails too late: its slip surface follows their sides.
+constexpr std::size_t few_elements = 40;
+
 bool has_strength(const Soil& soil) {
   return soil.skeleton.moves() && soil.skeleton.law->yields();
 }
@@ -311,9 +314,11 @@ class StrengthTable {
       volume += state.points.volume[p];
       elements.insert(state.points.element[p]);
     }
+    const bool is_small = elements.size() < few_elements;
     return "what fails moves most in " + soil_at(state, static_cast<int>(most - moved.begin())) +
            ", and half as far or farther in " + short_text(volume) + " m3 (" +
-           std::to_string(elements.size()) + (elements.size() == 1 ? " element)" : " elements)");
+           std::to_string(elements.size()) + (elements.size() == 1 ? " element" : " elements") +
+           (is_small ? ", so few that a finer mesh may give a lower factor)" : ")");
   }
 
   /// Remaining share of the erodible fines in soils with a strength; 1 if there were none.

@@ -222,6 +222,70 @@ TEST(Checks, AContactThatWaterCrossesBothWaysIsJudgedTwice) {
   EXPECT_EQ(row_of(report, "filter-drainage").where, "sand -> clay");
 }
 
+/// A soil whose coarse grains do not hold its fines, here the finest 22.7 %: the filter has to hold
+/// these alone. With sizes in mm, D85 of the fines is 0.2254 mm.
+TEST(Checks, TheBaseOfAnUnstableSoilIsItsFines) {
+  const std::string gap_sizes =
+      "gradation = [[0.08, 0], [0.15, 10], [0.25, 22], [2.0, 24], [4.0, 40], [8.0, 75], [16.0, "
+      "100]]\n";
+  const std::string fine_sizes =
+      "gradation = [[0.06, 0], [0.1, 10], [0.15, 40], [0.2, 70], [0.3, 95], [0.5, 100]]\n";
+  const ScratchFolder scratch;
+  std::string scene = levee_scene("");
+  scene.replace(scene.find(sand_sizes), std::string(sand_sizes).size(), gap_sizes);
+  scene.replace(scene.find("[soil.clay]\n"), 12, std::string("[soil.clay]\n") + fine_sizes);
+  const ResultsReader results = run_programs(scratch, "levee", scene, levee_ground());
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  const CheckRow& gap = row_of(report, "internal-stability", "sand");
+  EXPECT_LT(*gap.factor, 0.1);
+  EXPECT_TRUE(gap.note.starts_with("unstable; Kezdi (1979): unstable")) << gap.note;
+  EXPECT_GT(*row_of(report, "internal-stability", "clay").factor, 2.0);
+  const CheckRow& filter = row_of(report, "filter", "sand -> clay");
+  const double d15 = 0.1 * std::pow(1.5, 5.0 / 30.0);
+  EXPECT_NEAR(filter.effect, d15, 1e-9);
+  // F* = 22.7 %: its 85 % are at F = 19.3 %, between 0.15 and 0.25 mm.
+  const double fines = 22.0 + 2.0 * std::log(0.5 / 0.25) / std::log(8.0);
+  const double d85 = 0.15 * std::pow(0.25 / 0.15, (0.85 * fines - 10.0) / 12.0);
+  EXPECT_NEAR(filter.resistance, 7.0 * d85, 1e-6);
+  EXPECT_NE(filter.note.find("the base is the finest 22.7 % of sand"), std::string::npos);
+  EXPECT_NEAR(*row_of(report, "filter-retention", "sand -> clay").factor, 4.0 * d85 / d15, 1e-6);
+}
+
+/// Where two seepage faces meet at a toe, the water that leaves has the pressure of the air: a
+/// column from there must not begin with more.
+TEST(Checks, NodesOfSeepageFacesHaveNoPressure) {
+  const ScratchFolder scratch;
+  const std::string geometry =
+      "Point(1) = {0, -6, 0}; Point(2) = {30, -6, 0}; Point(3) = {30, 0, 0};\n"
+      "Point(4) = {20, 0, 0}; Point(5) = {10, 4, 0}; Point(6) = {0, 4, 0};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};\n"
+      "Line(5) = {5, 6}; Line(6) = {6, 1};\n"
+      "Curve Loop(1) = {1, 2, 3, 4, 5, 6}; Plane Surface(1) = {1};\n"
+      "Physical Surface(\"sand\") = {1}; Physical Curve(\"river\") = {6};\n"
+      "Physical Curve(\"slope\") = {4}; Physical Curve(\"ground\") = {3};\n";
+  const ResultsReader results = run_programs(
+      scratch, "toe",
+      top("geometry.file = \"toe.geo\"\nmesh.size = 1.0\nmesh.structure = \"crossed\"\n") +
+          soil("sand", 1e-4, "retention = { model = \"gardner\", alpha = 2.0 }\n") +
+          "[[boundary]]\non = \"river\"\nhead = 3.4\nconcentration = 0.0\n"
+          "[[boundary]]\non = \"slope\"\nseepage_face = true\n"
+          "[[boundary]]\non = \"ground\"\nseepage_face = true\n",
+      geometry);
+  const std::vector<double> pressure = results.field(0, "node", "pressure").values;
+  with_mesh(results, [&](const auto& mesh) {
+    for (const auto& boundary : mesh.boundaries) {
+      if (boundary.name != "slope" && boundary.name != "ground") continue;
+      for (const auto& face : boundary.faces) {
+        for (const int node : face) EXPECT_LE(pressure[node], 0.0) << mesh.nodes[node].transpose();
+      }
+    }
+  });
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  const CheckRow& column = row_of(report, "hyd-stresses", "ground");
+  // Effect and gradient of one place agree.
+  EXPECT_LT(column.effect, 1.35 * water * -column.place[1] * 2.0);
+}
+
 TEST(Checks, BlanketTheoryStandsNextToTheComputedHead) {
   const ScratchFolder scratch;
   const ResultsReader results = run_programs(
