@@ -107,6 +107,7 @@ struct ErosionSettings {
   double threshold = 0.0;                        ///< D_cr, in the unit of the drive
   ResidualFraction residual = {};                ///< n_e that does not erode
   double critical_concentration = std::numeric_limits<double>::infinity();  ///< c_cr
+  double length = 0.0;                                                      ///< l, m; 0: none
 };
 
 struct Soil {
@@ -145,7 +146,8 @@ struct Soil {
             .drive = erosion.law->drive.empty() ? erosion.drive : drive_law(erosion.law->drive),
             .threshold = erosion.threshold,
             .residual = erosion.residual,
-            .critical_concentration = erosion.critical_concentration};
+            .critical_concentration = erosion.critical_concentration,
+            .length = erosion.length};
   }
   [[nodiscard]] ConductivityModel conductivity_model() const {
     return {conductivity_law, conductivity, skeleton_fraction, conductivity_parameters};

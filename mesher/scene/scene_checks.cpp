@@ -65,6 +65,7 @@ class Checks : private SceneCheckBase {
               "as law is not " + shown_value(std::string(no_erosion()->word)), table + ".law");
     }
     check_drive(soil, table);
+    check_length(soil, table);
     check_residual(soil, joined(table, "residual"));
     check_momentum(soil, table);
   }
@@ -103,6 +104,19 @@ class Checks : private SceneCheckBase {
 
   /// Whether the soil inherits keys: inherited keys, unlike given ones, may be unused by its law.
   [[nodiscard]] bool inherits(const Soil& soil) const { return given(table_of(soil) + ".like"); }
+
+  void check_length(const Soil& soil, const std::string& table) const {
+    const std::string key = joined(table, "length");
+    if (!(soil.erosion.length > 0.0) || refused(key)) return;
+    if (scene_.moves()) {
+      report(key, shown_number(soil.erosion.length) + " m where soil moves",
+             "rigid soil, or no such key", {});
+    }
+    if (depends_on_flux(soil.erosion_model()) || inherits(soil)) return;
+    report(key,
+           shown_number(soil.erosion.length) + " m for erosion that does not depend on the flow",
+           "a drive other than \"time\", or no such key", {joined(table, "drive")});
+  }
 
   void check_drive(const Soil& soil, const std::string& table) const {
     const std::string drive_key = joined(table, "drive");

@@ -440,6 +440,14 @@ std::vector<SceneKey> declare_keys() {
           .below(1.0)
           .or_infinite()
           .otherwise_as("`inf`"),
+      key("soil.*.erosion.length", in_erosion(&ErosionSettings::length),
+          "Length over which the law averages the flux, of the size of some large grains: it gives "
+          "channels a width that does not depend on the mesh. 0: the flux of the place. Rigid soil "
+          "only, and not with the drive \"time\".")
+          .named("l")
+          .in("m")
+          .at_least(0.0)
+          .otherwise(0.0),
       key("soil.*.erosion.start", in_erosion(&ErosionSettings::start), "When erosion starts.")
           .named("t_0")
           .in("s")

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/grid.hpp"
 #include "mixed/flow.hpp"
 
 namespace suffuse {

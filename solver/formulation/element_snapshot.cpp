@@ -119,8 +119,9 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   Field rate = scalar("erosion_rate", "1/s");
   Field pressure = scalar("pressure", "Pa");
   const MaterialPoints<Dim>& points = solid.soils().points();
-  const PointFlows flows =
+  PointFlows flows =
       point_flows(grid, solid.soils(), flow.face_flux, std::numeric_limits<double>::infinity(), 1);
+  solid.find_eroding_flux(flows);
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
     const double n = solid.porosity()[p];

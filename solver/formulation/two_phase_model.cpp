@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "boundary/leaky_walls.hpp"
 #include "formulation/seepage_measures.hpp"
@@ -73,6 +74,17 @@ std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
     const auto e = static_cast<int>(result.size());
     result.push_back(acting_flux(grid_, soils_, e, q.norm(), flux_history_.duration));
   }
+  if (!soils_.exchange_depends_on().surroundings) return result;
+  PointFlows flows =
+      point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
+  solid_->find_eroding_flux(flows);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    if (soils_.erosion_of_element(e).length == 0.0) continue;
+    const int first = soils_.points_begin(e);
+    const int last = soils_.points_begin(e + 1);
+    const auto begin = flows.eroding_flux.begin();
+    result[e] = std::accumulate(begin + first, begin + last, 0.0) / (last - first);
+  }
   return result;
 }
 
@@ -118,6 +130,7 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   flows.start = start;
   flows.end = flow.end;
   find_flux_change(grid_, soils_, flux_history_, flows, threads());
+  solid_->find_eroding_flux(flows);
   exchange_.start_interval(std::move(flows));
   masses_.book_liquid(flow.volumes.liquid);
   observations_.book_liquid(flow.volumes.liquid);

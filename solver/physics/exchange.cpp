@@ -230,7 +230,8 @@ Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const
                       .concentration = flow.concentration,
                       .saturation = flow.saturation,
                       .motion = flow.motion};
-  return SoilVolume(model, place, now, drive, catch_rate(model.deposition, flow, flow.flux_start))
+  return SoilVolume(model, place, now, drive,
+                    catch_rate(model.deposition, flow, flow.flux_that_deposits(flow.flux_start)))
       .rate_now();
 }
 
@@ -244,7 +245,8 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
                   place.porosity,
               0.0};
     }
-    const double caught = catch_rate(model.deposition, flow, flow.flux()) * (to - from);
+    const double caught =
+        catch_rate(model.deposition, flow, flow.flux_that_deposits(flow.flux())) * (to - from);
     if (scaled == 0.0 && (caught == 0.0 || flow.concentration <= 0.0)) return {};
     // The drive is infinite if the grains lock.
     if (!std::isfinite(scaled)) return {scaled, unset};

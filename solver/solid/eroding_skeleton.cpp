@@ -23,6 +23,21 @@ ErodingSkeleton<Dim>::ErodingSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>&
   if (soils.deposits()) state_.deposited_volume.assign(points.size(), 0.0);
   update_porosity();
   initial_porosity_ = porosity_;
+  if (soils.exchange_depends_on().surroundings) {
+    nonlocal_flux_ = std::make_unique<NonlocalFlux<Dim>>(grid, soils, threads);
+  }
+}
+
+template <int Dim>
+void ErodingSkeleton<Dim>::find_eroding_flux(PointFlows& flows) const {
+  if (!nonlocal_flux_ || flows.flux.empty()) return;
+  std::vector<double> fines_left(porosity_.size(), 0.0);
+  for (int p = 0; p < soils_.points().size(); ++p) {
+    const double most = soils_.soil_of_point(p).porosity_max() - initial_porosity_[p];
+    const double at_start = soils_.points().volume[p] * most;
+    if (at_start > 0.0) fines_left[p] = state_.erodible_volume[p] / at_start;
+  }
+  nonlocal_flux_->find(fines_left, flows);
 }
 
 template <int Dim>

@@ -2,6 +2,9 @@
 
 /// Erosion and deposition at points, common to rigid and moving skeletons.
 
+#include <memory>
+
+#include "solid/nonlocal_flux.hpp"
 #include "solid/skeleton.hpp"
 
 namespace suffuse {
@@ -22,6 +25,7 @@ class ErodingSkeleton : public Skeleton<Dim> {
     return porosity_[point] - initial_porosity_[point];
   }
 
+  void find_eroding_flux(PointFlows& flows) const override;
   [[nodiscard]] bool exchanges_within(double from, double to) const override {
     return span_.meets(from, to);
   }
@@ -77,6 +81,7 @@ class ErodingSkeleton : public Skeleton<Dim> {
 
   const SoilMap<Dim>& soils_;
   TimeSpan span_;
+  std::unique_ptr<NonlocalFlux<Dim>> nonlocal_flux_;  ///< null: no soil has an `erosion.length`
 };
 
 }  // namespace suffuse

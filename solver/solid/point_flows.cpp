@@ -13,6 +13,7 @@ namespace suffuse {
 PlaceFlow PointFlows::at(int point, int element, double from, double to) const {
   PlaceFlow flow;
   std::tie(flow.flux_start, flow.flux_end) = flux_ends(point, from, to);
+  if (!eroding_flux.empty()) flow.deposition_flux = flux[point];
   if (!resistance.empty()) flow.resistance = resistance[point];
   if (!concentration.empty()) flow.concentration = concentration[point];
   if (!saturation.empty()) flow.saturation = saturation[element];

@@ -48,6 +48,7 @@ std::vector<double> PoreForecast<Dim>::of_points_at(double time) const {
   ahead.concentration = liquid_.concentration;
   ahead.saturation = liquid_.saturation;
   ahead.motion = liquid_.motion;
+  solid_.find_eroding_flux(ahead);
   return solid_.porosity_after(time_, time, ahead);
 }
 

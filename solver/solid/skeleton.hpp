@@ -68,6 +68,8 @@ class Skeleton {
   /// Mean n_L per element.
   [[nodiscard]] virtual std::vector<double> element_porosity() const = 0;
 
+  /// Sets the flux that erosion sees, where soil has an `erosion.length`, by the present fines.
+  virtual void find_eroding_flux(PointFlows& /*flows*/) const {}
   /// Whether fines can be exchanged with the liquid between two times.
   [[nodiscard]] virtual bool exchanges_within(double from, double to) const = 0;
   /// n_L per solid point at time `to`, s, from now (`from`); the state does not change.

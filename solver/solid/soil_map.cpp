@@ -126,12 +126,15 @@ void SoilMap<Dim>::find_element_region() {
 
 template <int Dim>
 void SoilMap<Dim>::find_dependence() {
-  for (const ExchangeModel& model : exchange_of_region_) {
+  for (ExchangeModel& model : exchange_of_region_) {
+    // A soil may have inherited the length, and not the law.
+    if (!depends_on_flux(model.erosion)) model.erosion.length = 0.0;
     const bool threshold = model.erosion.threshold > 0.0;
     dependence_.flux |= model.depends_on_flux();
     dependence_.flux_change |=
         depends_on_flux(model.erosion) && (threshold || model.drive_depends_on_conductivity());
     dependence_.resistance |= model.drive_depends_on_conductivity();
+    dependence_.surroundings |= model.erosion.length > 0.0;
     dependence_.concentration |= model.depends_on_concentration();
   }
 }

@@ -121,6 +121,7 @@ class SoilMap {
     bool flux_change = false;    ///< how |q| changes within a step, as it may cross a threshold
     bool resistance = false;     ///< the gradient that drives the flow
     bool concentration = false;  ///< the fines in the liquid
+    bool surroundings = false;   ///< the flux around a place, by an `erosion.length`
   };
   [[nodiscard]] const Dependence& exchange_depends_on() const { return dependence_; }
   /// Times at which erosion starts or, if the law tells, ends (at the first and the last point of a

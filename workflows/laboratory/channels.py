@@ -23,7 +23,7 @@ LOSS_OF_ALL = [1200.0, 3000.0]  # s
 
 def read(path):
     with open(path, newline="", encoding="utf-8") as file:
-        return [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
+        return [{name.split(" [")[0]: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
 
 
 def widths(post, results, time, x):

@@ -63,6 +63,7 @@ struct ErosionModel {
   double threshold = 0.0;  ///< D_cr, in the drive's unit
   ResidualFraction residual = {};
   double critical_concentration = std::numeric_limits<double>::infinity();  ///< c_cr
+  double length = 0.0;  ///< l over which |q| is averaged, m; 0: |q| of the place
 };
 
 /// All laws, in the order of physics/CMakeLists.txt and the scene reference.
