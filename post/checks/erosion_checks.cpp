@@ -21,14 +21,19 @@ class SoilDrive {
         factor_(conductivity_factor(results, soil)),
         flux_(results.field(index, "cell", "darcy_flux").values),
         porosity_(results.field(index, "cell", "porosity").values),
-        concentration_(results.field(index, "cell", "concentration").values) {}
+        concentration_(results.field(index, "cell", "concentration").values) {
+    if (model_.erosion.length > 0.0) {
+      eroding_flux_ = results.field(index, "cell", "eroding_flux").values;
+    }
+  }
 
   [[nodiscard]] double at(int element) const {
     const Vector<Dim> q = Vector<Dim>::Map(&flux_[Dim * static_cast<std::size_t>(element)]);
     const double initial = soil_.initial_porosity(element_centroid(mesh_, element));
     const PlaceFlow flow{.resistance = soil_.resistance_along(q),
                          .concentration = concentration_[element]};
-    return drive_at(model_, {initial, porosity_[element], factor_[element]}, flow, q.norm());
+    const double flux = eroding_flux_.empty() ? q.norm() : eroding_flux_[element];
+    return drive_at(model_, {initial, porosity_[element], factor_[element]}, flow, flux);
   }
 
  private:
@@ -39,6 +44,7 @@ class SoilDrive {
   std::vector<double> flux_;
   std::vector<double> porosity_;
   std::vector<double> concentration_;
+  std::vector<double> eroding_flux_;  ///< empty: erosion sees the flux of the place
 };
 
 bool is_in(const auto& mesh, int element, const Soil& soil) {

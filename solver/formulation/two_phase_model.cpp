@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "boundary/leaky_walls.hpp"
 #include "formulation/seepage_measures.hpp"
@@ -78,12 +77,9 @@ std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
   PointFlows flows =
       point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
   solid_->find_eroding_flux(flows);
+  const std::vector<double> eroding = element_means(soils_, flows.eroding_flux);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    if (soils_.erosion_of_element(e).length == 0.0) continue;
-    const int first = soils_.points_begin(e);
-    const int last = soils_.points_begin(e + 1);
-    const auto begin = flows.eroding_flux.begin();
-    result[e] = std::accumulate(begin + first, begin + last, 0.0) / (last - first);
+    if (soils_.erosion_of_element(e).length > 0.0) result[e] = eroding[e];
   }
   return result;
 }

@@ -66,6 +66,19 @@ void find_flux_change(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const Fl
   });
 }
 
+template <int Dim>
+std::vector<double> element_means(const SoilMap<Dim>& soils, const std::vector<double>& at_points) {
+  std::vector<double> means(soils.mesh().element_count(), 0.0);
+  for (std::size_t e = 0; e < means.size(); ++e) {
+    const int first = soils.points_begin(static_cast<int>(e));
+    const int last = soils.points_begin(static_cast<int>(e) + 1);
+    for (int p = first; p < last; ++p) means[e] += at_points[p] / (last - first);
+  }
+  return means;
+}
+
+template std::vector<double> element_means(const SoilMap<2>&, const std::vector<double>&);
+template std::vector<double> element_means(const SoilMap<3>&, const std::vector<double>&);
 template double acting_flux(const Grid<2>&, const SoilMap<2>&, int, double, double);
 template PointFlows point_flows(const Grid<2>&, const SoilMap<2>&, const std::vector<double>&,
                                 double, int);

@@ -60,4 +60,8 @@ template <int Dim>
 double acting_flux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element, double flux,
                    double duration);
 
+/// Mean of the values of the solid points in each element; 0 without points.
+template <int Dim>
+std::vector<double> element_means(const SoilMap<Dim>& soils, const std::vector<double>& at_points);
+
 }  // namespace suffuse

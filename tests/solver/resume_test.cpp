@@ -144,6 +144,11 @@ std::vector<test::Mode> variants() {
                   "output={every = 0.02, snapshot_every = 0.1, restarts = 1000}"}),
       test::with(single, "gravity",
                  {"gravity=[0.0, -9.81]", "initial.water_level=1.0", "time.stepping=monotone"}),
+      test::with(single, "erosion_length",
+                 {"soil.specimen.conductivity_law=kozeny-carman",
+                  "soil.specimen.erosion={law = \"first-order\", drive = \"flux\", rate = 20.0, "
+                  "threshold = 1e-3, length = 0.2}",
+                  "soil.specimen.deposition={coefficient = 2.0, porosity_min = 0.2}"}),
       test::with(single, "ergun", {"soil.specimen.drag=ergun"}),
       // Seepage faces open and close as the head falls and rain falls.
       test::with(

@@ -2,13 +2,18 @@
 """Tables when a channel crosses the specimen of channel.toml, with its width and the loss of fines.
 
     channels.py POST RESULTS... > TABLE
+    channels.py --changes TABLE > CHANGES
 
-POST is suffuse-post. A place is open where half of its fines are gone. Nothing but Python is needed.
+POST is suffuse-post. A place is open where half of its fines are gone, and a channel has crossed the specimen when a
+place near the inlet is open, by interpolation between snapshots. The second form compares free meshes whose sizes
+halve: the change from the last but one to the last, over the last, and the observed order of the last three. An order
+that no number stands for (differences of unlike signs, or none) is left empty. Nothing but Python is needed.
 """
 
 import csv
 import itertools
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -18,7 +23,8 @@ WIDTH, COUNT = 0.24, 2401  # of the specimen across the flow, m, and places acro
 OPEN = 0.375  # porosity where half of the fines are gone
 NEAR_INLET = 0.02  # m
 ACROSS = [0.05, 0.10, 0.15, 0.20, 0.25, 0.30]  # where widths are taken, m
-LOSS_OF_ALL = [1200.0, 3000.0]  # s
+LOSS_AT = [200.0, 300.0, 1200.0, 2000.0, 3000.0]  # s
+OUTPUTS = [*(f"lost_{time:g}s" for time in LOSS_AT), "through", "width_mm", "lost_when_through"]
 
 
 def read(path):
@@ -26,54 +32,105 @@ def read(path):
         return [{name.split(" [")[0]: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
 
 
-def widths(post, results, time, x):
-    """Lengths of the open parts of the line across the specimen at x, m."""
+def porosities(post, results, time, x):
+    """Porosity along the line across the specimen at x."""
     with tempfile.TemporaryDirectory() as scratch:
         table = f"{scratch}/line.csv"
         subprocess.run([post, "sample", results, "--time", f"{time:.17g}", "--line", f"{x},0:{x},{WIDTH}",
                         "--count", str(COUNT), "--fields", "porosity", "--csv", table], check=True)
-        parts = itertools.groupby(row["porosity"] >= OPEN for row in read(table))
-        return [WIDTH / (COUNT - 1) * len(list(places)) for is_open, places in parts if is_open]
+        return [row["porosity"] for row in read(table)]
+
+
+def widths(post, results, time, x):
+    """Lengths of the open parts of the line across the specimen at x, m."""
+    parts = itertools.groupby(porosity >= OPEN for porosity in porosities(post, results, time, x))
+    return [WIDTH / (COUNT - 1) * len(list(places)) for is_open, places in parts if is_open]
 
 
 def break_through(post, results):
-    """The time of the first snapshot in which the specimen is open near its inlet; none if it never is."""
+    """The time at which the specimen opens near its inlet; none if it never does."""
     times = [file["time"] for file in json.loads((results / "mesh.hdf.series").read_text())["files"]]
-    if not widths(post, results, times[-1], NEAR_INLET):
+    before, after = 0, len(times) - 1
+    if not widths(post, results, times[after], NEAR_INLET):
         return None
-    low, high = 0, len(times) - 1
-    while high - low > 1:
-        middle = (low + high) // 2
+    while after - before > 1:
+        middle = (before + after) // 2
         if widths(post, results, times[middle], NEAR_INLET):
-            high = middle
+            after = middle
         else:
-            low = middle
-    return times[high]
+            before = middle
+    places = zip(porosities(post, results, times[before], NEAR_INLET),
+                 porosities(post, results, times[after], NEAR_INLET))
+    share = min((OPEN - low) / (high - low) for low, high in places if high >= OPEN)
+    return times[before] + share * (times[after] - times[before])
+
+
+def lost(ledger, time):
+    """Share of the fines that is gone, per cent; none after the end."""
+    for before, after in itertools.pairwise(ledger):
+        if before["t"] <= time <= after["t"]:
+            share = (time - before["t"]) / (after["t"] - before["t"])
+            return 100.0 * (before["eroded"] + share * (after["eroded"] - before["eroded"])) / before["erodible_at_start"]
+    return None
+
+
+def setting(run, key, otherwise):
+    """What the run sets a key of the scene to, as the text that was given."""
+    given = dict(text.split("=", 1) for text in run["scene"]["overrides"])
+    return given.get(key, otherwise).strip('"')
+
+
+def shown(value, digits=4):
+    return "" if value is None else f"{value:.{digits}g}"
 
 
 def row_of(post, folder):
     results = pathlib.Path(folder)
     ledger = read(results / "ledger.csv")
-
-    def lost(time):
-        row = min(ledger, key=lambda row: abs(row["t"] - time))
-        return f"{100.0 * row['eroded'] / ledger[0]['erodible']:.4g}"
-
+    for row in ledger:
+        row["erodible_at_start"] = ledger[0]["erodible"]
     run = json.loads((results / "run.json").read_text())
-    cells = [results.stem, run["elements"], *(lost(time) for time in LOSS_OF_ALL)]
+    cells = [results.stem, f"{1e3 * float(setting(run, 'soil.specimen.erosion.length', '0')):g}",
+             setting(run, "mesh.structure", "free"), f"{1e3 * float(setting(run, 'mesh.size', 'nan')):g}",
+             run["elements"], *(shown(lost(ledger, time)) for time in LOSS_AT)]
     time = break_through(post, results)
     if time is None:
         return [*cells, "", "", ""]
     channels = [width for x in ACROSS for width in widths(post, results, time, x)]
-    return [*cells, f"{time:g}", f"{1e3 * sum(channels) / len(channels):.3g}", lost(time)]
+    width = 1e3 * sum(channels) / len(channels) if channels else None
+    return [*cells, shown(time), shown(width, 3), shown(lost(ledger, time))]
+
+
+def order(coarse, middle, fine):
+    """Observed order on sizes that halve; none where the differences do not shrink or grow in one direction."""
+    ratio = (coarse - middle) / (middle - fine) if middle != fine else 0.0
+    return math.log2(ratio) if ratio > 0.0 else None
+
+
+def changes_of(table):
+    """A row for each output of each series of free meshes, from the finest three or two that have a value."""
+    with open(table, newline="", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["structure"] == "free"]
+    yield ["series", "length_mm", "output", "finest_mm", "coarse", "middle", "fine", "change_percent", "order"]
+    for (series, length), members in itertools.groupby(rows, lambda row: (row["run"].split("-")[0], row["length_mm"])):
+        finest = sorted(members, key=lambda row: -float(row["size_mm"]))[-3:]
+        for output in OUTPUTS:
+            values = [float(row[output]) if row[output] else None for row in finest]
+            if None in values[-2:]:
+                continue
+            change = 100.0 * (values[-2] / values[-1] - 1.0) if values[-1] else None
+            observed = order(*values) if len(values) == 3 and None not in values else None
+            yield [series, length, output, finest[-1]["size_mm"], *map(shown, values), shown(change, 2), shown(observed, 2)]
 
 
 def main():
     if len(sys.argv) < 3:
-        sys.exit("channels.py: expected POST RESULTS...")
+        sys.exit("channels.py: expected POST RESULTS... or --changes TABLE")
     writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(["run", "elements", *(f"lost_{time:g}s" for time in LOSS_OF_ALL), "through", "width_mm",
-                     "lost_when_through"])
+    if sys.argv[1] == "--changes":
+        writer.writerows(changes_of(sys.argv[2]))
+        return
+    writer.writerow(["run", "length_mm", "structure", "size_mm", "elements", *OUTPUTS])
     writer.writerows(row_of(sys.argv[1], folder) for folder in sys.argv[2:])
 
 
