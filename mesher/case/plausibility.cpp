@@ -25,6 +25,8 @@ constexpr double lightest_grains = 1500.0;     // kg/m3
 constexpr double fastest_soil = 1.0;           // m/s
 /// m of water: fine sand drains at higher suctions.
 constexpr double unnoticed_suction = 0.5;
+/// Least number of elements along an `erosion.length`.
+constexpr double elements_of_length = 2.0;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -39,6 +41,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     for (const Soil& soil : scene_.soils) check_soil(soil);
     check_gravity();
     check_resolution();
+    check_erosion_lengths();
     return std::move(warnings_);
   }
 
@@ -154,6 +157,30 @@ class Plausibility : private PlausibilityBase<Dim> {
   /// Whether a region is a layer of a column: the scene gives its number of rows.
   [[nodiscard]] bool is_layer(const std::string& region) const {
     return !scene_.geometry.shape.empty() && region == "buffer";
+  }
+
+  /// Mean edge of the elements of a region, m, as if they were regular.
+  [[nodiscard]] double element_size(const std::string& region) const {
+    double volume = 0.0;
+    int count = 0;
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      if (mesh_.region_names[mesh_.element_region[e]] != region) continue;
+      volume += element_volume(mesh_, e);
+      ++count;
+    }
+    if (count == 0) return 0.0;
+    return Dim == 2 ? 1.52 * std::sqrt(volume / count) : 2.04 * std::cbrt(volume / count);
+  }
+
+  void check_erosion_lengths() {
+    for (const Soil& soil : scene_.soils) {
+      const double length = soil.erosion.length;
+      const double size = element_size(soil.region);
+      if (length == 0.0 || length >= elements_of_length * size) continue;
+      warn(joined(table_of(soil), "erosion.length"),
+           short_number(length) + " m is shorter than two elements of " + short_number(size) +
+               " m, so that channels are as wide as the mesh lets them be");
+    }
   }
 
   void check_resolution() {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "equilibrium/solid_points.hpp"
 #include "equilibrium/supports.hpp"
 #include "solid/soil_map.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "driver/interrupt.hpp"
 #include "driver/transport_cost.hpp"
+#include "solid/channel_width.hpp"
 
 namespace suffuse {
 
@@ -41,6 +42,22 @@ void RunLoop<Dim>::warn_of_points(OutputSink<Dim>& sink) {
 }
 
 template <int Dim>
+void RunLoop<Dim>::warn_of_channels(OutputSink<Dim>& sink) {
+  // Two elements across have a border on either side.
+  constexpr double narrow = 1.5;
+  if (warned_of_channels_) return;
+  const auto width = relative_channel_width(model_->grid(), model_->solid());
+  if (!width || *width > narrow) return;
+  warned_of_channels_ = true;
+  std::ostringstream text;
+  text.precision(2);
+  text << "erosion opens channels that are " << *width << " elements wide at t = " << model_->time()
+       << " s: where they run and how much they lose depends on the mesh; an erosion.length gives "
+          "them a width";
+  sink.warn(text.str());
+}
+
+template <int Dim>
 void RunLoop<Dim>::warn_of_outputs(OutputSink<Dim>& sink) {
   if (warned_of_outputs_ || !schedule_.writes_each_step()) return;
   warned_of_outputs_ = true;
@@ -56,6 +73,7 @@ void RunLoop<Dim>::output(OutputSink<Dim>& sink) {
   const OutputSchedule::Due due = schedule_.take(model_->time());
   if (!due.row && !due.snapshot) return;
   const FlowState<Dim> flow = model_->flow_state();
+  if (due.snapshot) warn_of_channels(sink);
   // The row comes first, because the snapshot stores the number of rows.
   if (due.row) sink.write_row(flow);
   if (due.snapshot) sink.write_snapshot(flow);

@@ -87,7 +87,7 @@ class RunLoop {
   [[nodiscard]] const OutputSchedule& schedule() const { return schedule_; }
 
   void archive(StateArchive& archive) {
-    archive(*model_, schedule_, warned_of_points_, warned_of_outputs_);
+    archive(*model_, schedule_, warned_of_points_, warned_of_outputs_, warned_of_channels_);
   }
   /// The state from which a run can continue: that of the loop and of `more`, in this order. On
   /// several ranks all have to call it, and rank 0 gets the state of all.
@@ -109,13 +109,15 @@ class RunLoop {
   void output(OutputSink<Dim>& sink);
   void warn_of_points(OutputSink<Dim>& sink);
   void warn_of_outputs(OutputSink<Dim>& sink);
+  void warn_of_channels(OutputSink<Dim>& sink);
 
   std::unique_ptr<TwoPhaseModel<Dim>> model_;
   OutputSchedule schedule_;
-  double end_;                      ///< of the run, s
-  bool warned_of_points_ = false;   ///< the warning of many crossings was given
-  bool warned_of_outputs_ = false;  ///< the warning of an output each step was given
-  std::size_t state_size_ = 0;      ///< of the last restart point, bytes
+  double end_;                       ///< of the run, s
+  bool warned_of_points_ = false;    ///< the warning of many crossings was given
+  bool warned_of_outputs_ = false;   ///< the warning of an output each step was given
+  bool warned_of_channels_ = false;  ///< the warning of channels as narrow as elements was given
+  std::size_t state_size_ = 0;       ///< of the last restart point, bytes
 };
 
 }  // namespace suffuse

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "solid/channel_width.hpp"
+#include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
 
 namespace suffuse {
@@ -130,6 +132,34 @@ TEST(NonlocalFlux, OfAnEvenFluxIsThisFlux) {
     soil.smoothing.find(fines_left, flows);
     for (const double flux : flows.eroding_flux) EXPECT_NEAR(flux, q0, 1e-10 * q0);
   }
+}
+
+/// Width of a channel of `columns` cells without fines, over the size of elements.
+std::optional<double> channel_of(int columns, double threshold, double l) {
+  constexpr int cells = 16;
+  Scene scene = scene_with_length(l);
+  scene.soils.front().erosion.threshold = threshold;
+  const Case<2> c = model::make_case(model::column_mesh(cells, cells), scene);
+  const Grid<2> grid(c.mesh);
+  const SoilMap<2> soils(c);
+  RigidSkeleton<2> solid(grid, soils, {}, 1);
+  SolidState state = solid.state();
+  for (int p = 0; p < soils.points().size(); ++p) {
+    const double column = element_centroid(c.mesh, soils.points().element[p])[0] * cells - 4.0;
+    if (column > 0.0 && column < columns) state.erodible_volume[p] = 0.0;
+  }
+  solid.start_from(state);
+  return relative_channel_width(grid, solid);
+}
+
+TEST(ChannelWidth, IsCountedInElements) {
+  const double size = 1.52 * std::sqrt(0.5);  // of an element, in cells
+  EXPECT_NEAR(channel_of(1, 1e-3, 0.0).value(), 1.0 / size, 1e-9);
+  EXPECT_NEAR(channel_of(5, 1e-3, 0.0).value(), 5.0 / size, 1e-9);
+  EXPECT_FALSE(channel_of(0, 1e-3, 0.0).has_value());
+  // Soil without a threshold, or with a length, is not looked at.
+  EXPECT_FALSE(channel_of(1, 0.0, 0.0).has_value());
+  EXPECT_FALSE(channel_of(1, 1e-3, 0.1).has_value());
 }
 
 }  // namespace nonlocal_flux_test

@@ -42,13 +42,15 @@ std::string residual(Random& random, double erodible, double flux) {
 
 /// Erosion that takes from a few per cent to nearly all of the fines in a run of `end` s.
 std::string erosion(Random& random, const Scales& s, double porosity, double erodible, double end,
-                    bool double_point) {
+                    bool double_point, double length) {
   constexpr std::array<const char*, 5> laws{"constant", "logarithmic", "first-order",
                                             "autocatalytic", "flux"};
   constexpr std::array<const char*, 5> drives{"time", "flux", "gradient", "shear-stress", "power"};
   const std::string law = laws[random.below(5)];
-  const std::string drive = law == "flux" ? "flux" : drives[random.below(5)];
+  std::string drive = law == "flux" ? "flux" : drives[random.below(5)];
+  if (length > 0.0 && drive == "time") drive = "flux";
   std::vector<std::string> parts{word("law", law)};
+  if (length > 0.0) parts.push_back(entry("length", length));
   if (law != "flux") parts.push_back(word("drive", drive));
   const double scale = drive_scale(drive, s, porosity);
   double taken = random.decades(0.05, 3.0);  // S, if the state is n_e
@@ -108,7 +110,7 @@ std::string word(const std::string& key, const std::string& value) {
   return key + " = \"" + value + "\"";
 }
 
-std::string random_soil(Random& random, const Scales& s, double end, Scheme scheme) {
+std::string random_soil(Random& random, const Scales& s, double end, Scheme scheme, double length) {
   const double n = s.porosity * random.between(0.8, 1.25);
   const double loose = random.between(0.05, 0.4);  // share of the solid
   const double erodible = (1.0 - n) * loose;
@@ -137,7 +139,7 @@ std::string random_soil(Random& random, const Scales& s, double end, Scheme sche
   if (parts.back().empty()) parts.pop_back();
   const double what = random.share();
   const bool double_point = is_double_point(scheme);
-  if (what < 0.85) parts.push_back(erosion(random, s, n, erodible, end, double_point));
+  if (what < 0.85) parts.push_back(erosion(random, s, n, erodible, end, double_point, length));
   if (what > 0.3) parts.push_back(deposition(random, s, n, 2.0 * erodible, end));
   return "={" + joined(parts) + "}";
 }

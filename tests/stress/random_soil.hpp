@@ -39,7 +39,9 @@ std::string word(const std::string& key, const std::string& value);
 
 /// A soil for `--set soil.NAME`: with erosion, deposition or both in a run of `end` s, and with a
 /// retention where `scales` say that soil need not be saturated.
-std::string random_soil(Random& random, const Scales& scales, double end, Scheme scheme);
+/// \param length  over which erosion averages the flux, which then drives it, m; 0: none
+std::string random_soil(Random& random, const Scales& scales, double end, Scheme scheme,
+                        double length = 0.0);
 
 /// Values in time between `highest` and lower ones, negative if the flow reverses.
 std::string flood(Random& random, double end, double highest, bool reverses);

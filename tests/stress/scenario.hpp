@@ -98,6 +98,7 @@ Sweep space_motion_sweep();
 
 /// Every way in which soils give fines away and catch them.
 Sweep soils_sweep();
+Sweep lengths_sweep();
 
 /// Boxes and dams of tetrahedra.
 Sweep space_sweep();

@@ -10,6 +10,7 @@ namespace suffuse::stress {
 namespace {
 
 constexpr unsigned seeds = 500;
+constexpr unsigned length_seeds = 200;
 
 enum class Shape { column, weir, levee };
 
@@ -70,11 +71,18 @@ Changes flows(Random& random, const Run& run, double end) {
   return changes;
 }
 
-Changes soils_changes(unsigned seed, Scheme scheme, double end) {
+/// \param lengths  erosion averages the flux over a random length
+Changes soils_changes(unsigned seed, Scheme scheme, double end, bool lengths) {
   const Run run = drawn_run(seed, scheme);
   Random random(seed + 30000);
-  Changes changes{"soil.specimen" + random_soil(random, run.scales, end, scheme),
-                  "soil.other" + random_soil(random, run.scales, end, scheme)};
+  Random drawn(seed + 60000);
+  const auto soil = [&] {
+    const double length = lengths ? drawn.decades(0.003, 3.0) : 0.0;
+    return random_soil(random, run.scales, end, scheme, length);
+  };
+  Changes changes;
+  for (const char* name : {"specimen", "other"})
+    changes.push_back("soil." + std::string(name) + soil());
   for (std::string& change : flows(random, run, end)) changes.push_back(std::move(change));
   for (std::string& change : liquid_changes(run.scales)) changes.push_back(std::move(change));
   if (is_explicit(scheme)) changes.emplace_back("time.mass_scaling=100");
@@ -104,12 +112,12 @@ std::string name_of(Shape shape) {
 
 }  // namespace
 
-Sweep soils_sweep() {
-  Sweep sweep{"soils",
-              "laws, drives, deposition, conductivities and viscosities at random; "
-              "floods that turn back",
-              {}};
-  for (unsigned seed = 1; seed <= seeds; ++seed) {
+namespace {
+
+Sweep soils_at_random(const std::string& name, const std::string& what, unsigned count,
+                      bool lengths) {
+  Sweep sweep{name, what, {}};
+  for (unsigned seed = 1; seed <= count; ++seed) {
     Scenario scenario;
     scenario.scheme = all_schemes[seed % all_schemes.size()];
     const Scheme scheme = scenario.scheme;
@@ -121,10 +129,26 @@ Sweep soils_sweep() {
     scenario.explicit_steps = 3000.0;
     // A liquid in which the grains lock cannot flow: the run ends with an error that says so.
     if (run.scales.viscous) scenario.expected = Expected::either;
-    scenario.changes = [=](const Span& span) { return soils_changes(seed, scheme, span.end); };
+    scenario.changes = [=](const Span& span) {
+      return soils_changes(seed, scheme, span.end, lengths);
+    };
     sweep.scenarios.push_back(std::move(scenario));
   }
   return sweep;
+}
+
+}  // namespace
+
+Sweep soils_sweep() {
+  return soils_at_random("soils",
+                         "laws, drives, deposition, conductivities and viscosities at random; "
+                         "floods that turn back",
+                         seeds, false);
+}
+
+Sweep lengths_sweep() {
+  return soils_at_random("lengths", "as soils, with erosion that averages the flux over a length",
+                         length_seeds, true);
 }
 
 }  // namespace suffuse::stress

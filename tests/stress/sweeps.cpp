@@ -12,7 +12,7 @@ std::vector<Sweep> all_sweeps() {
     std::ranges::move(some, std::back_inserter(result));
   }
   for (Sweep (*const one)() :
-       {seepage_sweep, soils_sweep, motion_sweep, space_motion_sweep, space_sweep}) {
+       {seepage_sweep, soils_sweep, lengths_sweep, motion_sweep, space_motion_sweep, space_sweep}) {
     result.push_back(one());
   }
   return result;
