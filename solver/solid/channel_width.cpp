@@ -12,7 +12,7 @@ constexpr double regular_edge = Dim == 2 ? 1.52 : 2.04;
 enum class Part : char { other, eroded, intact };
 
 template <int Dim>
-Part part_of(const Skeleton<Dim>& solid, int element) {
+Part channel_part(const Skeleton<Dim>& solid, int element) {
   const SoilMap<Dim>& soils = solid.soils();
   const ErosionModel& erosion = soils.erosion_of_element(element);
   if (!erosion.drive->depends_on_flow() || !(erosion.threshold > 0.0) || erosion.length > 0.0) {
@@ -37,12 +37,13 @@ std::optional<double> relative_channel_width(const Grid<Dim>& grid, const Skelet
   double count = 0.0;
   double border = 0.0;
   for (const int e : grid.own_elements()) {
-    if (part_of(solid, e) != Part::eroded) continue;
+    if (channel_part(solid, e) != Part::eroded) continue;
     volume += grid.volume[e];
     count += 1.0;
     for (const int f : grid.element_face[e]) {
       const int other = grid.beyond(f, e);
-      if (other >= 0 && part_of(solid, other) == Part::intact) border += grid.face_normal[f].norm();
+      if (other >= 0 && channel_part(solid, other) == Part::intact)
+        border += grid.face_normal[f].norm();
     }
   }
   volume = sum_of_all(grid.ranks(), volume);
