@@ -165,13 +165,21 @@ typename FlowSolver<Dim>::SurfaceSoil FlowSolver<Dim>::surface_soil(int element,
 template <int Dim>
 std::vector<double> FlowSolver<Dim>::node_means(const std::vector<double>& pressure) const {
   std::vector<double> result = means_at_nodes(grid_, pressure, 0.0);
-  prescribe_at_nodes(result);
+  prescribe_at_nodes({}, result);
   grid_.node_rows().exchange(result);
   return result;
 }
 
 template <int Dim>
-void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) const {
+void FlowSolver<Dim>::prescribe_at_nodes(const std::vector<double>& face_pressure,
+                                         std::vector<double>& node_pressure) const {
+  for (std::size_t f = 0; f < face_pressure.size(); ++f) {
+    if (conditions_[f].kind != FaceKind::seepage) continue;
+    const bool is_open = face_pressure[f] >= 0.0;
+    for (const int i : grid_.face_nodes[f]) {
+      node_pressure[i] = is_open ? 0.0 : std::min(node_pressure[i], 0.0);
+    }
+  }
   std::vector<double> prescribed(node_pressure.size(), 0.0);
   std::vector<int> faces(node_pressure.size(), 0);
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -187,18 +195,6 @@ void FlowSolver<Dim>::prescribe_at_nodes(std::vector<double>& node_pressure) con
   }
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (faces[i] > 0) node_pressure[i] = prescribed[i] / faces[i];
-  }
-}
-
-template <int Dim>
-void FlowSolver<Dim>::limit_at_seepage_faces(const std::vector<double>& face_pressure,
-                                             std::vector<double>& node_pressure) const {
-  for (int f = 0; f < grid_.face_count(); ++f) {
-    if (conditions_[f].kind != FaceKind::seepage) continue;
-    const bool is_open = face_pressure[f] >= 0.0;
-    for (const int i : grid_.face_nodes[f]) {
-      node_pressure[i] = is_open ? 0.0 : std::min(node_pressure[i], 0.0);
-    }
   }
 }
 

@@ -184,12 +184,11 @@ class FlowSolver {
     boundary_values_.update(end, conditions_);
     boundary_values_.update_concentrations(0.5 * (start + end), conditions_);
   }
-  /// Sets the pressure of nodes on faces with a prescribed pressure, Pa.
-  void prescribe_at_nodes(std::vector<double>& node_pressure) const;
-  /// Sets the pressure of other nodes of open seepage faces to zero, Pa; it is not above zero at
-  /// closed ones.
-  void limit_at_seepage_faces(const std::vector<double>& face_pressure,
-                              std::vector<double>& node_pressure) const;
+  /// Sets the pressure of nodes on faces with a prescribed pressure, and of other nodes of open
+  /// seepage faces to zero, Pa; it is not above zero at closed ones.
+  /// \param face_pressure  empty if there are no seepage faces
+  void prescribe_at_nodes(const std::vector<double>& face_pressure,
+                          std::vector<double>& node_pressure) const;
 
   std::vector<FaceCondition> conditions_;  ///< per face, at the end of the last step
   FlowCoefficients<Dim> coefficients_;

@@ -431,8 +431,7 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
                    Vector<Dim>(this->scene().liquid.density * this->gravity()));
   result.node_pressure = std::move(nodes.pressure);
   result.velocity = std::move(nodes.velocity);
-  this->limit_at_seepage_faces(now_.state.face_pressure, result.node_pressure);
-  this->prescribe_at_nodes(result.node_pressure);
+  this->prescribe_at_nodes(result.face_pressure, result.node_pressure);
   this->grid().node_rows().exchange(result.node_pressure);
   this->grid().node_rows().exchange(result.velocity);
   return result;

@@ -66,22 +66,7 @@ double TwoPhaseModel<Dim>::coupling_interval() const {
 
 template <int Dim>
 std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
-  std::vector<double> result;
-  if (!soils_.exchange_depends_on().flux) return result;
-  result.reserve(grid_.mesh.elements.size());
-  for (const Vector<Dim>& q : element_flux(grid_, flux_history_.mean)) {
-    const auto e = static_cast<int>(result.size());
-    result.push_back(acting_flux(grid_, soils_, e, q.norm(), flux_history_.duration));
-  }
-  if (!soils_.exchange_depends_on().surroundings) return result;
-  PointFlows flows =
-      point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
-  solid_->find_eroding_flux(flows);
-  const std::vector<double> eroding = element_means(soils_, flows.eroding_flux);
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    if (soils_.erosion_of_element(e).length > 0.0) result[e] = eroding[e];
-  }
-  return result;
+  return acting_element_flux(grid_, *solid_, flux_history_, threads());
 }
 
 template <int Dim>

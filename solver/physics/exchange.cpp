@@ -33,6 +33,7 @@ LocalState drive_state(const ExchangeModel& model, const SoilPlace& place, const
 /// lambda_d |q|, 1/s; zero if nothing is deposited or points book their deposits themselves.
 double catch_rate(const DepositionModel& deposition, const PlaceFlow& flow, double flux) {
   const bool catches = flow.motion != LiquidMotion::passes && deposition.deposits();
+  if (!std::isnan(flow.deposition_flux)) flux = flow.deposition_flux;
   return catches && flux < deposition.flux_max ? deposition.coefficient * flux : 0.0;
 }
 
@@ -225,13 +226,9 @@ Exchange exchange_rate(const ExchangeModel& model, const SoilPlace& place, const
   const bool erodes_now = erodes(model.erosion) && time >= model.erosion.start;
   const double drive =
       erodes_now ? drive_rate(model.erosion, drive_at(model, place, flow, flow.flux_start)) : 0.0;
-  const PlaceFlow now{.flux_start = flow.flux_start,
-                      .flux_end = flow.flux_start,
-                      .concentration = flow.concentration,
-                      .saturation = flow.saturation,
-                      .motion = flow.motion};
-  return SoilVolume(model, place, now, drive,
-                    catch_rate(model.deposition, flow, flow.flux_that_deposits(flow.flux_start)))
+  PlaceFlow now = flow;
+  now.flux_end = flow.flux_start;
+  return SoilVolume(model, place, now, drive, catch_rate(model.deposition, flow, flow.flux_start))
       .rate_now();
 }
 
@@ -245,8 +242,7 @@ Exchange exchange_over(const ExchangeModel& model, const SoilPlace& place, const
                   place.porosity,
               0.0};
     }
-    const double caught =
-        catch_rate(model.deposition, flow, flow.flux_that_deposits(flow.flux())) * (to - from);
+    const double caught = catch_rate(model.deposition, flow, flow.flux()) * (to - from);
     if (scaled == 0.0 && (caught == 0.0 || flow.concentration <= 0.0)) return {};
     // The drive is infinite if the grains lock.
     if (!std::isfinite(scaled)) return {scaled, unset};

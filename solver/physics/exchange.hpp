@@ -74,20 +74,15 @@ enum class LiquidMotion : std::uint8_t {
 
 /// The liquid at a place over a step. Values that no law uses may stay unset.
 struct PlaceFlow {
-  double flux_start = unset;  ///< |q| at the start, m/s; linear in time until the end
-  double flux_end = unset;    ///< m/s
-  /// Mean |q| that deposition sees, m/s, if erosion sees another; unset: that of the two above.
-  double deposition_flux = unset;
+  double flux_start = unset;       ///< |q| at the start, m/s; linear in time until the end
+  double flux_end = unset;         ///< m/s
+  double deposition_flux = unset;  ///< |q| for deposition, m/s, if it is not that of erosion
   double resistance = 1.0;       ///< gradient along the flow over |q|/k in saturated soil (bedding)
   double concentration = unset;  ///< c at the start
   double saturation = 1.0;       ///< liquid per pore volume
   LiquidMotion motion = LiquidMotion::stays;
 
   [[nodiscard]] double flux() const { return 0.5 * (flux_start + flux_end); }
-  /// |q| for deposition, m/s; `flux`: that for erosion.
-  [[nodiscard]] double flux_that_deposits(double flux) const {
-    return std::isnan(deposition_flux) ? flux : deposition_flux;
-  }
 };
 
 /// Volumes per volume of soil, or rates of these in 1/s.

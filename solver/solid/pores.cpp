@@ -1,5 +1,6 @@
 #include "solid/pores.hpp"
 
+#include "grid/face_flux.hpp"
 #include "grid/parallel.hpp"
 
 namespace suffuse {
@@ -35,6 +36,27 @@ ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid) 
     for (int j = 0; j <= Dim; ++j) {
       result[points.element[p]][j] += volume * FieldNodes<Dim>::basis(points.barycentric[p][j]);
     }
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<double> acting_element_flux(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                                        const FluxHistory& history, int threads) {
+  const SoilMap<Dim>& soils = solid.soils();
+  std::vector<double> result;
+  if (!soils.exchange_depends_on().flux) return result;
+  result.reserve(grid.mesh.elements.size());
+  for (const Vector<Dim>& q : element_flux(grid, history.mean)) {
+    const auto e = static_cast<int>(result.size());
+    result.push_back(acting_flux(grid, soils, e, q.norm(), history.duration));
+  }
+  if (!soils.exchange_depends_on().surroundings) return result;
+  PointFlows flows = point_flows(grid, soils, history.mean, history.duration, threads);
+  solid.find_eroding_flux(flows);
+  const std::vector<double> eroding = element_means(soils, flows.eroding_flux);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (soils.erosion_of_element(e).length > 0.0) result[e] = eroding[e];
   }
   return result;
 }
@@ -77,6 +99,10 @@ PoreState PoreForecast<Dim>::at(double time) const {
 
 template ElementField<2> initial_pore_volume(const Grid<2>&, const SoilMap<2>&);
 template ElementField<2> pore_field(const Grid<2>&, const Skeleton<2>&);
+template std::vector<double> acting_element_flux(const Grid<2>&, const Skeleton<2>&,
+                                                 const FluxHistory&, int);
+template std::vector<double> acting_element_flux(const Grid<3>&, const Skeleton<3>&,
+                                                 const FluxHistory&, int);
 template class PoreForecast<2>;
 template ElementField<3> initial_pore_volume(const Grid<3>&, const SoilMap<3>&);
 template ElementField<3> pore_field(const Grid<3>&, const Skeleton<3>&);

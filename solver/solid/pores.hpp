@@ -29,6 +29,12 @@ ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>&
 template <int Dim>
 ElementField<Dim> pore_field(const Grid<Dim>& grid, const Skeleton<Dim>& solid);
 
+/// |q| of an interval that acts on the soil of each element, m/s: for soil with an `erosion.length`
+/// that which erosion sees. Empty if no law needs it.
+template <int Dim>
+std::vector<double> acting_element_flux(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
+                                        const FluxHistory& history, int threads);
+
 /// Forecast of the pores: erosion up to a later time, without transport of fines. Keeps references
 /// to the skeleton and the grid; valid until the skeleton changes.
 template <int Dim>

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "case/case_file.hpp"
-#include "tools/soil_state.hpp"
+#include "tools/failing_soil.hpp"
 
 namespace suffuse {
 

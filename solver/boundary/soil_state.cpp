@@ -1,12 +1,7 @@
-#include "tools/soil_state.hpp"
+#include "boundary/soil_state.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "boundary/boundary_loads.hpp"
-#include "boundary/free_water.hpp"
-#include "boundary/soil_depth.hpp"
-#include "physics/liquid.hpp"
 
 namespace suffuse {
 namespace {
@@ -65,57 +60,6 @@ void take_points(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& start, const 
   state.points = {mesh, places, values(snapshot.solid, "volume", count)};
 }
 
-/// Displacement of the nodes since the start, m: the weighted mean of that of the points around
-/// each node; 0 without points.
-template <int Dim>
-NodeVectors<Dim> node_displacement(const Grid<Dim>& grid, const MaterialPoints<Dim>& start,
-                                   const SoilState<Dim>& state) {
-  NodeVectors<Dim> sum(grid.mesh.node_count(), Vector<Dim>::Zero());
-  std::vector<double> weight(sum.size(), 0.0);
-  for (int p = 0; p < state.points.size(); ++p) {
-    const int id = state.id[p];
-    const Vector<Dim> moved = state.points.position[p] - start.position(grid.mesh, id);
-    for (int a = 0; a <= Dim; ++a) {
-      const int node = grid.mesh.elements[start.element[id]][a];
-      const double share = start.volume[id] * start.barycentric[id][a];
-      sum[node] += share * moved;
-      weight[node] += share;
-    }
-  }
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    if (weight[i] > 0.0) sum[i] /= weight[i];
-  }
-  return sum;
-}
-
-/// Loads of the scene's boundaries, on surfaces moved with the soil.
-template <int Dim>
-BoundaryLoads<Dim> moved_loads(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                               const SoilState<Dim>& state) {
-  const PointsByElement at_start(grid.mesh.element_count(), soils.points().element);
-  BoundaryLoads<Dim> loads(grid, soils, at_start);
-  loads.move(at_start, node_displacement(grid, soils.points(), state));
-  return loads;
-}
-
-/// Additional cohesion per point, Pa: half of the unit weight times `depth` at smaller depths, 0
-/// elsewhere.
-template <int Dim>
-std::vector<double> surface_cohesion(const SoilMap<Dim>& soils, const SoilState<Dim>& state,
-                                     double depth, const std::vector<double>& depths) {
-  std::vector<double> cohesion(depths.size(), 0.0);
-  const std::array<double, 3>& gravity = soils.scene().gravity;
-  const double acceleration = std::hypot(gravity[0], gravity[1], gravity[2]);
-  for (std::size_t p = 0; p < depths.size(); ++p) {
-    if (depths[p] >= depth) continue;
-    const Soil& soil = soils.soil_of_point(state.id[p]);
-    const double density = soil.grain_density * state.solid_volume[p] / state.points.volume[p] +
-                           state.liquid_mass[state.points.element[p]];
-    cohesion[p] = 0.5 * density * acceleration * depth;
-  }
-  return cohesion;
-}
-
 }  // namespace
 
 SoilFields soil_fields(bool moves) {
@@ -160,44 +104,7 @@ SoilState<Dim> soil_state(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
   return state;
 }
 
-template <int Dim>
-SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                const SoilState<Dim>& state, const FailingSoil& failing,
-                                int threads, const StrengthReductionLimits& limits) {
-  const Supports<Dim> supports = scene_supports(grid, soils);
-  const PointsByElement sorted(grid.mesh.element_count(), state.points.element);
-  const ElementClasses classes(grid, state.points, sorted);
-  std::vector<PointSkeleton> skeleton;
-  SoilMass mass{.solid = {}, .liquid = state.liquid_mass};
-  for (int p = 0; p < state.points.size(); ++p) {
-    const Soil& soil = soils.soil_of_point(state.id[p]);
-    skeleton.push_back(skeleton_at(soil.skeleton, state.fines_left[p]));
-    if (soil.skeleton.moves() && !failing.includes(soil.region)) {
-      skeleton.back().law = skeleton_law("elastic");
-    }
-    mass.solid.push_back(state.solid_volume[p] * soil.grain_density);
-  }
-  NodeVectors<Dim> loads(grid.mesh.node_count(), Vector<Dim>::Zero());
-  add_weight(grid, state.points, sorted, classes, mass, soils.scene().gravity, loads);
-  moved_loads(grid, soils, state).add(sorted, state.time, loads);
-  if (has_free_water(grid, soils)) {
-    add_free_water(grid, sorted, soil_volumes(state.points, sorted, classes), state.pressure,
-                   state.liquid_mass, soils.scene().gravity, loads);
-  }
-  std::vector<double> kept;
-  if (failing.depth > 0.0) {
-    kept = surface_cohesion(soils, state, failing.depth,
-                            depths_below_surface(grid, supports, state.points, sorted));
-  }
-  return find_safety_factor<Dim>({grid, state.points, sorted, skeleton, classes}, supports, loads,
-                                 state.pressure, threads, limits, kept);
-}
-
 template SoilState<2> soil_state(const Grid<2>&, const SoilMap<2>&, const Snapshot&);
 template SoilState<3> soil_state(const Grid<3>&, const SoilMap<3>&, const Snapshot&);
-template SafetyFactor find_safety_factor(const Grid<2>&, const SoilMap<2>&, const SoilState<2>&,
-                                         const FailingSoil&, int, const StrengthReductionLimits&);
-template SafetyFactor find_safety_factor(const Grid<3>&, const SoilMap<3>&, const SoilState<3>&,
-                                         const FailingSoil&, int, const StrengthReductionLimits&);
 
 }  // namespace suffuse

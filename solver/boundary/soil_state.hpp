@@ -1,13 +1,12 @@
 #pragma once
 
-/// The soil at one time of a run, from a snapshot, and its factor of safety at that time.
+/// The soil at one time of a run, from a snapshot.
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "equilibrium/solid_points.hpp"
 #include "solid/skeleton.hpp"
-#include "tools/strength_reduction.hpp"
 
 namespace suffuse {
 
@@ -39,28 +38,5 @@ struct SoilFields {
   std::vector<const char*> solid;
 };
 SoilFields soil_fields(bool moves);
-
-/// Soil that may fail in strength reduction.
-struct FailingSoil {
-  /// Only soil of these regions fails, other soil is elastic; empty: all regions.
-  std::vector<std::string> regions;
-  /// Soil nearer to its surface (`depths_below_surface`), m, gets an additional cohesion of half of
-  /// its unit weight times this depth, which is not divided. That is the largest shear stress that
-  /// a layer of this thickness has below it on a slope of any angle, so that no thinner body
-  /// slides.
-  double depth = 0.0;
-
-  [[nodiscard]] bool includes(const std::string& region) const {
-    return regions.empty() || std::ranges::count(regions, region) > 0;
-  }
-};
-
-/// Largest divisor of the strength of the soils for which this state has an equilibrium, under the
-/// weight and the loads of the scene at that time. Loaded surfaces are moved with the soil. Throws
-/// NumericalError when nothing holds the soil.
-template <int Dim>
-SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                                const SoilState<Dim>& state, const FailingSoil& failing,
-                                int threads, const StrengthReductionLimits& limits = {});
 
 }  // namespace suffuse
