@@ -67,7 +67,7 @@ std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
 FilterBase filter_base(const Gradation& soil) {
   const std::optional<FinesContent> fines = fines_content(soil);
   const bool is_unstable = check_kenney_lau(soil).stability == Stability::unstable ||
-                           check_kezdi(soil).stability == Stability::unstable;
+                           check_li_fannin(soil).stability == Stability::unstable;
   if (!is_unstable || !fines) return {soil};
   std::vector<GradationPoint> points;
   for (const GradationPoint& point : soil.points()) {

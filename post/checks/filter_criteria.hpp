@@ -26,8 +26,9 @@ struct ErosionBoundaries {
 /// Nothing where the gradation begins above the sizes that decide.
 std::optional<ErosionBoundaries> erosion_boundaries(const Gradation& base);
 
-/// What a filter has to hold: of a soil that is unstable by Kenney and Lau's or Kezdi's criterion
-/// only its fines, as the coarse grains do not hold them (ICOLD bulletin 164); otherwise all of it.
+/// What a filter has to hold: of a soil that is unstable by Kenney and Lau's or Li and Fannin's
+/// criterion only its fines, as the coarse grains do not hold them (ICOLD bulletin 164); otherwise
+/// all of it. Kezdi's splits also find the thin fine end of stable soils, which is no base.
 struct FilterBase {
   Gradation gradation;
   double finer = 100.0;  ///< share of the soil, per cent

@@ -99,7 +99,7 @@ END
 out="$work/o ut/critical-level/layers"
 run_make critical-level SCENE=layers.toml BOUNDARY=bottom FROM=1.1 TO=1.9 SCAN=2 TOLERANCE_LEVEL=0.1
 expect 'filters do not depend on the level' "0 $(printf '%s\n' erosion heave hyd-stresses hyd-forces)" "$code $(sed 1d "$out/critical.csv" | cut -d, -f1)"
-expect 'and are said once' 'Not part of the search, as they do not depend on the level: filter retention silt -> gravel has a factor of 0.05 and is exceeded; filter drainage holds.' \
+expect 'and are said once' 'Not part of the search, as they do not depend on the level: filter retention silt -> gravel has a factor of 0.05 and is exceeded; filter drainage and internal stability hold.' \
   "$(grep 'filter\|loss' "$out/report.md" | sed 's/filter silt -> gravel has a factor of [0-9.]* and is exceeded; //')"
 expect 'they have no column' '' "$(head -1 "$out/levels.csv" | grep -o 'filter' || true)"
 
