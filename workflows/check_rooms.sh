@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Includes between the rooms of the sources go down only (docs/architecture.md). check_rooms.sh [ROOT]
+# Includes between the rooms of the sources go down only (docs/develop/architecture.md). check_rooms.sh [ROOT]
 #
 # Prints a line for each include that goes up, for each loose source file in solver/ but main.cpp,
 # for each source file that is too long, and for too many rooms or arrows (pairs of rooms, one of

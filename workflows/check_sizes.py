@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sizes of the solver's rooms and classes (docs/architecture.md). check_sizes.py [ROOT] [--list]
+"""Sizes of the solver's rooms and classes (docs/develop/architecture.md). check_sizes.py [ROOT] [--list]
 
 A room is a folder of solver/: at most 2500 lines, laws in folders of physics/ included. A class is its definition
 and the bodies of its member functions in all files: at most 600 lines. Those listed below are larger; they may only

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The case file, which suffuse-mesher writes and suffuse-solver reads. One HDF5 file; see
-/// docs/file-formats.md.
+/// docs/reference/file-formats.md.
 
 #include <string>
 

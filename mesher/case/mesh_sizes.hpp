@@ -1,7 +1,7 @@
 #pragma once
 
 /// The file of sizes: what an error estimate of suffuse-solver asks of the next mesh. One HDF5
-/// file; see docs/file-formats.md.
+/// file; see docs/reference/file-formats.md.
 
 #include <string>
 #include <vector>

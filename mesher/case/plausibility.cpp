@@ -168,15 +168,15 @@ class Plausibility : private PlausibilityBase<Dim> {
       volume += element_volume(mesh_, e);
       ++count;
     }
-    if (count == 0) return 0.0;
-    return Dim == 2 ? 1.52 * std::sqrt(volume / count) : 2.04 * std::cbrt(volume / count);
+    return count == 0 ? 0.0 : regular_edge<Dim>(volume / count);
   }
 
   void check_erosion_lengths() {
     for (const Soil& soil : scene_.soils) {
       const double length = soil.erosion.length;
+      if (length == 0.0 || !depends_on_flux(soil.erosion_model())) continue;
       const double size = element_size(soil.region);
-      if (length == 0.0 || length >= elements_of_length * size) continue;
+      if (length >= elements_of_length * size) continue;
       warn(joined(table_of(soil), "erosion.length"),
            short_number(length) + " m is shorter than two elements of " + short_number(size) +
                " m, so that channels are as wide as the mesh lets them be");

@@ -16,7 +16,7 @@ constexpr std::size_t course_in_file = 3;
 constexpr std::size_t course_in_scene = 4;
 constexpr double large_results = 1e9;  // bytes
 
-// Size of a snapshot, to a factor of two (docs/file-formats.md, "What it takes").
+// Size of a snapshot, to a factor of two (docs/reference/file-formats.md, "What it takes").
 constexpr double bytes_per_number = 8.0 * 0.3;  // compressed
 constexpr double bytes_per_file = 8e3;
 constexpr double bytes_per_row = 1e3;  // of all tables together

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,12 @@ double element_volume(const Mesh<Dim>& mesh, int element);
 /// Mean size of the elements: that of a square or cube of their mean volume, m.
 template <int Dim>
 double mean_size(const Mesh<Dim>& mesh);
+
+/// Edge of the regular triangle or tetrahedron of an area, m2, or a volume, m3.
+template <int Dim>
+double regular_edge(double volume) {
+  return Dim == 2 ? 1.52 * std::sqrt(volume) : 2.04 * std::cbrt(volume);
+}
 
 template <int Dim>
 Vector<Dim> element_centroid(const Mesh<Dim>& mesh, int element);

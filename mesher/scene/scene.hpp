@@ -1,7 +1,7 @@
 #pragma once
 
 /// The scene as the programs use it: typed, checked, defaults filled in. Keys, bounds and units are
-/// declared in `scene_keys.cpp`; `docs/scene-reference.md` is generated from there.
+/// declared in `scene_keys.cpp`; `docs/reference/scene-reference.md` is generated from there.
 /// SI units throughout.
 
 #include <array>
@@ -350,7 +350,7 @@ void complete_for_mesh(SceneDocument& document, int dimension);
 /// Path of a file that a scene names relative to its own folder.
 std::string file_beside_scene(const std::string& scene, const std::string& name);
 
-/// docs/scene-reference.md, generated from the schema.
+/// docs/reference/scene-reference.md, generated from the schema.
 std::string scene_reference_markdown();
 
 }  // namespace suffuse

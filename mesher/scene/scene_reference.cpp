@@ -10,7 +10,7 @@ namespace {
 constexpr const char* introduction = R"(# Scene reference
 
 <!-- Generated from mesher/scene/scene_keys.cpp. To change it, change that and run
-     suffuse-mesher --scene-reference > docs/scene-reference.md -->
+     suffuse-mesher --scene-reference > docs/reference/scene-reference.md -->
 
 A scene is a [TOML](https://toml.io) file that `suffuse-mesher` turns into a case. Units are SI. Where
 a number is expected, `6000`, `6e3` and `6000.0` are the same; `nan` is refused, and so is `inf`
@@ -36,7 +36,7 @@ replaces it, as in the last line: the pressure given in the file is gone.
 ## Keys
 
 `-` stands for a quantity without a unit, or for a key without a symbol. Symbols are those of
-[the theory](theory.md).
+[the theory](../theory/theory.md).
 )";
 
 constexpr const char* example = R"(

@@ -2,7 +2,7 @@
 
 /// Every key of a scene, declared once: its values, its meaning and where it is stored.
 /// The declarations are in `scene_keys.cpp`. Checking, `--set`, suggestions and
-/// docs/scene-reference.md all follow these declarations.
+/// docs/reference/scene-reference.md all follow these declarations.
 
 #include <cstdint>
 #include <functional>

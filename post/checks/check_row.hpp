@@ -12,7 +12,7 @@ namespace suffuse {
 
 /// The worst state of one mechanism at one place, over all snapshots.
 struct CheckRow {
-  std::string mechanism;      ///< "hyd-forces", "filter" and so on, see docs/checks.md
+  std::string mechanism;      ///< "hyd-forces", "filter" and so on, see docs/use/checks.md
   std::string where;          ///< boundary, region, or "base -> filter"
   std::string clause;         ///< where the criterion is written
   double time = unset;        ///< of the snapshot, s; not a number where time plays no part

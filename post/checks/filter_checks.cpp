@@ -121,7 +121,7 @@ void add_pair(std::vector<CheckRow>& rows, const Soil& from, const Soil& filter)
   }
   rows.push_back(erosion_row(where, *d15, *boundaries));
   if (base.finer < 100.0) {
-    rows.back().note += "; the base is the finest " + three_digits(base.finer) + " % of " +
+    rows.back().note += "; the base is the finest " + percent_text(base.finer) + " of " +
                         from.region + ", whose coarse grains do not hold them";
   }
   if (const auto ratio = retention_ratio(base.gradation, filter.gradation)) {

@@ -9,8 +9,8 @@
 
 namespace suffuse {
 
-/// Rows of `filter`, `filter-retention` and `filter-drainage` for each such pair, by the direction
-/// of the flow from one into the other in any snapshot. Throws FileError.
+/// Rows of `filter`, `filter-retention` and `filter-drainage` for each such pair, where water flows
+/// from the first into the second in some snapshot. Throws FileError.
 std::vector<CheckRow> filter_checks(const ResultsReader& results);
 
 /// Rows of `internal-stability` for each region with a gradation: H/F of Kenney and Lau, which is

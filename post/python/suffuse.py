@@ -12,7 +12,7 @@
     run.fields()                                     # names of all fields, by where they are
 
 All values are in SI units; in two dimensions volumes and masses are per metre of thickness. The columns and fields are
-described in docs/file-formats.md. A run can be read while it goes on: `open` it again for what is new. Every mistake is a
+described in docs/reference/file-formats.md. A run can be read while it goes on: `open` it again for what is new. Every mistake is a
 `suffuse.Error`, which says what there is.
 """
 

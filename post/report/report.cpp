@@ -35,8 +35,7 @@ std::string runs_table(const std::vector<std::string>& labels,
   };
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const RunNumbers& n = numbers[r];
-    std::optional<LeastSafety> least;
-    if (!n.safety.empty()) least = n.safety.front().least;
+    const LeastSafety* least = n.least_safety_at_exits();
     table.rows.push_back(
         {html::cell(labels[r]), html::cell(runs[r].status()), html::cell(n.end),
          number(n.fines_out), number(n.fines_percent),

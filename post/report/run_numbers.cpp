@@ -38,12 +38,7 @@ std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
     return short_text(least.safety) + ", at " + place_text(least.place) +
            " m and t = " + time_text(least.time, unit);
   };
-  // Soil above holds down what rises within the model, so that exits decide.
-  const LeastSafety* exit = nullptr;
-  for (std::size_t k = 1; k < numbers.safety.size(); ++k) {
-    const auto& least = numbers.safety[k].least;
-    if (least && (exit == nullptr || least->safety < exit->safety)) exit = &*least;
-  }
+  const LeastSafety* exit = numbers.least_safety_at_exits();
   std::string text = exit == nullptr ? "Water rises at no boundary that it leaves through. "
                                      : "The least safety against heave where water leaves is " +
                                            place(*exit) + ". ";
@@ -84,6 +79,15 @@ RunNumbers run_numbers(const ResultsReader& run) {
   if (has_gradients(run)) numbers.safety = safety_of(run);
   add_checks(run, numbers);
   return numbers;
+}
+
+const LeastSafety* RunNumbers::least_safety_at_exits() const {
+  const LeastSafety* found = nullptr;
+  for (std::size_t k = 1; k < safety.size(); ++k) {
+    const auto& least = safety[k].least;
+    if (least && (found == nullptr || least->safety < found->safety)) found = &*least;
+  }
+  return found;
 }
 
 std::string summary_text(const ResultsReader& run, const RunNumbers& numbers) {

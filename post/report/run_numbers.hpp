@@ -27,6 +27,10 @@ struct RunNumbers {
   std::vector<PartSafety> safety;  ///< all soil first
   std::optional<CheckReport> checks;
   std::string checks_refused;  ///< why there are no checks
+
+  /// The least safety of the boundaries through which water leaves; null if it rises at none. Soil
+  /// above holds down what rises within the model.
+  [[nodiscard]] const LeastSafety* least_safety_at_exits() const;
 };
 
 /// Throws FileError.

@@ -9,7 +9,7 @@
 
 namespace suffuse {
 
-/// Names of the columns; docs/file-formats.md says what they hold.
+/// Names of the columns; docs/reference/file-formats.md says what they hold.
 const std::vector<std::string>& run_table_columns();
 
 /// CSV text: a line of names and a row per run. Numbers have all their digits. A cell is empty

@@ -1,6 +1,7 @@
 #pragma once
 
-/// How far the discharge of a steady flow can be off (docs/theory.md, "Bounds of the discharge").
+/// How far the discharge of a steady flow can be off (docs/theory/theory.md, "Bounds of the
+/// discharge").
 ///
 /// The fluxes q of the mixed elements balance in every element; a continuous head h has the
 /// prescribed values. The gap between -K^-1 q and grad h in the energy norm is the square sum of

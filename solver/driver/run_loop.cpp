@@ -45,7 +45,7 @@ template <int Dim>
 void RunLoop<Dim>::warn_of_channels(OutputSink<Dim>& sink) {
   // Two elements across have a border on either side.
   constexpr double narrow = 1.5;
-  if (warned_of_channels_) return;
+  if (warned_of_channels_ || !model_->solid().soils().exchange_depends_on().flux) return;
   const auto width = relative_channel_width(model_->grid(), model_->solid());
   if (!width || *width > narrow) return;
   warned_of_channels_ = true;

@@ -8,7 +8,7 @@
 namespace suffuse {
 namespace {
 
-/// Time of a sweep over that of an explicit step, approximately (docs/accuracy.md).
+/// Time of a sweep over that of an explicit step, approximately (docs/evidence/accuracy.md).
 constexpr double sweep_over_step = 3.0;
 
 const PassTiming* pass(const std::vector<PassTiming>& passes, const std::string& name) {

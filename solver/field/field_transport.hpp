@@ -10,7 +10,7 @@
 
 namespace suffuse {
 
-/// A run that would need more explicit steps takes implicit ones (docs/accuracy.md).
+/// A run that would need more explicit steps takes implicit ones (docs/evidence/accuracy.md).
 inline constexpr double explicit_steps_of_a_run = 2000.0;
 
 struct FieldTransportSettings {

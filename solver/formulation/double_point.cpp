@@ -98,7 +98,7 @@ PoreState DoublePoint<Dim>::clean_pores() const {
     result.water_volume.push_back(result.porosity[e] * this->grid_.volume[e]);
   }
   result.concentration.assign(result.porosity.size(), 0.0);
-  result.flux = this->element_flux_magnitude();
+  if (this->soils_.transfers_momentum()) result.flux = this->element_flux_magnitude();
   return result;
 }
 

@@ -114,7 +114,7 @@ PoreState SinglePoint<Dim>::pores_with(std::vector<double> air_volume) const {
     result.water_volume[e] = liquid - fines;
     result.concentration[e] = fines / liquid;
   });
-  result.flux = this->element_flux_magnitude();
+  if (this->soils_.transfers_momentum()) result.flux = this->element_flux_magnitude();
   return result;
 }
 

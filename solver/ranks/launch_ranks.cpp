@@ -35,7 +35,7 @@ fs::path shared_solver() {
   if (fs::exists(program)) return program;
   throw FileError("--ranks: found no suffuse-solver-mpi in " + folder.string() +
                   ", the folder of suffuse-solver; install the package suffuse-mpi, or build "
-                  "Suffuse where PETSc and MPI are installed (docs/ranks.md)");
+                  "Suffuse where PETSc and MPI are installed (docs/use/ranks.md)");
 }
 
 /// Where what the processes print can be read, and where it is written; -1: nowhere else.

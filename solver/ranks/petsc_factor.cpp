@@ -18,7 +18,7 @@ constexpr int most_iterations = 300;
 constexpr int most_directions = 60;
 constexpr const char* prefix = "suffuse_flow_";
 
-/// For the matrices of mixed elements: docs/decisions.md.
+/// For the matrices of mixed elements: docs/develop/decisions.md.
 void set_options() {
   constexpr const char* options[][2] = {{"pc_hypre_boomeramg_strong_threshold", "0.25"},
                                         {"pc_hypre_boomeramg_coarsen_type", "HMIS"},

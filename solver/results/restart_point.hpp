@@ -1,7 +1,7 @@
 #pragma once
 
 /// The state from which a stopped run can continue, stored with the newest snapshots and in the
-/// checkpoint of an interrupted run. Layout: docs/file-formats.md.
+/// checkpoint of an interrupted run. Layout: docs/reference/file-formats.md.
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Writes the results folder of a run. Layout: docs/file-formats.md.
+/// Writes the results folder of a run. Layout: docs/reference/file-formats.md.
 ///
 ///     NAME.results/run.json  history.csv  ledger.csv  regions.csv  boundaries.csv
 ///     NAME.results/probes.csv  sections.csv   where the scene has any
@@ -27,7 +27,7 @@ namespace suffuse {
 
 /// Values of one field at one time, `components` per entity, entity by entity.
 struct Field {
-  std::string name;  ///< as in the symbol table of docs/theory.md
+  std::string name;  ///< as in the symbol table of docs/theory/theory.md
   std::string unit;
   int components = 1;
   std::vector<double> values;

@@ -1,13 +1,7 @@
 #include "solid/channel_width.hpp"
 
-#include <cmath>
-
 namespace suffuse {
 namespace {
-
-/// Edge of the regular triangle or tetrahedron of volume 1.
-template <int Dim>
-constexpr double regular_edge = Dim == 2 ? 1.52 : 2.04;
 
 enum class Part : char { other, eroded, intact };
 
@@ -22,7 +16,7 @@ Part channel_part(const Skeleton<Dim>& solid, int element) {
   double at_start = 0.0;
   for (int p = soils.points_begin(element); p < soils.points_begin(element + 1); ++p) {
     left += solid.state().erodible_volume[p];
-    at_start += soils.points().volume[p] * (erosion.porosity_max - solid.initial_porosity()[p]);
+    at_start += solid.erodible_at_start(p);
   }
   if (!(at_start > 0.0)) return Part::other;
   return left < 0.5 * at_start ? Part::eroded : Part::intact;
@@ -50,8 +44,7 @@ std::optional<double> relative_channel_width(const Grid<Dim>& grid, const Skelet
   count = sum_of_all(grid.ranks(), count);
   border = sum_of_all(grid.ranks(), border);
   if (count < enough || border == 0.0) return std::nullopt;
-  const double size = regular_edge<Dim> * std::pow(volume / count, 1.0 / Dim);
-  return 2.0 * volume / border / size;
+  return 2.0 * volume / border / regular_edge<Dim>(volume / count);
 }
 
 template std::optional<double> relative_channel_width(const Grid<2>&, const Skeleton<2>&);

@@ -33,8 +33,7 @@ void ErodingSkeleton<Dim>::find_eroding_flux(PointFlows& flows) const {
   if (!nonlocal_flux_ || flows.flux.empty()) return;
   std::vector<double> fines_left(porosity_.size(), 0.0);
   for (int p = 0; p < soils_.points().size(); ++p) {
-    const double most = soils_.soil_of_point(p).porosity_max() - initial_porosity_[p];
-    const double at_start = soils_.points().volume[p] * most;
+    const double at_start = this->erodible_at_start(p);
     if (at_start > 0.0) fines_left[p] = state_.erodible_volume[p] / at_start;
   }
   nonlocal_flux_->find(fines_left, flows);

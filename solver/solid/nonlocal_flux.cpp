@@ -21,6 +21,7 @@ NonlocalFlux<Dim>::NonlocalFlux(const Grid<Dim>& grid, const SoilMap<Dim>& soils
     : grid_(grid), soils_(soils), solver_(threads, {}, flow_factor(Dim, grid.face_count())) {
   number_nodes();
   assemble();
+  volume_ = at_nodes(std::vector<double>(soils.points().size(), 1.0));
 }
 
 template <int Dim>
@@ -95,20 +96,27 @@ std::vector<double> NonlocalFlux<Dim>::at_points(const Eigen::VectorXd& nodes,
 }
 
 template <int Dim>
+void NonlocalFlux<Dim>::find_weight(const std::vector<double>& fines_left) {
+  // An interval asks several times with the same fines.
+  if (fines_left == fines_left_) return;
+  fines_left_ = fines_left;
+  weight_ = fines_left;
+  for (double& w : weight_) w = std::max(w, least_weight);
+  mean_weight_ = smoothed(at_nodes(weight_));
+}
+
+template <int Dim>
 void NonlocalFlux<Dim>::find(const std::vector<double>& fines_left, PointFlows& flows) {
-  std::vector<double> weight = fines_left;
-  for (double& w : weight) w = std::max(w, least_weight);
-  const Eigen::VectorXd volume = at_nodes(std::vector<double>(weight.size(), 1.0));
-  const Eigen::VectorXd mean_weight = smoothed(at_nodes(weight));
+  find_weight(fines_left);
   const auto mean = [&](const std::vector<double>& values) {
     std::vector<double> weighted = values;
-    for (std::size_t p = 0; p < weighted.size(); ++p) weighted[p] *= weight[p];
+    for (std::size_t p = 0; p < weighted.size(); ++p) weighted[p] *= weight_[p];
     const Eigen::VectorXd of_fines = smoothed(at_nodes(weighted));
     const Eigen::VectorXd of_place = at_nodes(values);
     Eigen::VectorXd nodes(count_);
     for (int i = 0; i < count_; ++i) {
-      nodes[i] =
-          mean_weight[i] > without_fines ? of_fines[i] / mean_weight[i] : of_place[i] / volume[i];
+      nodes[i] = mean_weight_[i] > without_fines ? of_fines[i] / mean_weight_[i]
+                                                 : of_place[i] / volume_[i];
     }
     return at_points(nodes, values);
   };
@@ -117,7 +125,7 @@ void NonlocalFlux<Dim>::find(const std::vector<double>& fines_left, PointFlows& 
   for (double& flux : flows.eroding_flux) flux = std::max(flux, 0.0);
   if (flows.flux_change.empty()) return;
   flows.eroding_flux_change = mean(flows.flux_change);
-  for (std::size_t p = 0; p < weight.size(); ++p) {
+  for (std::size_t p = 0; p < weight_.size(); ++p) {
     const double most = 2.0 * flows.eroding_flux[p];
     flows.eroding_flux_change[p] = std::clamp(flows.eroding_flux_change[p], -most, most);
   }

@@ -18,8 +18,8 @@ namespace suffuse {
 ///
 /// in all soil that erodes with a length l, without flux of N or M through its borders; w is the
 /// share of the fines that is left. So q~ is a weighted mean of |q| over the fines around a place,
-/// and a channel without fines does not count (docs/theory.md, "Channels with a width"). N and M
-/// are linear in elements, with lumped masses.
+/// and a channel without fines does not count (docs/theory/theory.md, "Channels with a width"). N
+/// and M are linear in elements, with lumped masses.
 template <int Dim>
 class NonlocalFlux {
  public:
@@ -35,6 +35,8 @@ class NonlocalFlux {
  private:
   void number_nodes();
   void assemble();
+  /// Finds M, unless it is that of the last call.
+  void find_weight(const std::vector<double>& fines_left);
   /// Sum of the values at points over the nodes, in shares of the points' barycentric coordinates.
   [[nodiscard]] Eigen::VectorXd at_nodes(const std::vector<double>& values) const;
   [[nodiscard]] Eigen::VectorXd smoothed(const Eigen::VectorXd& source);
@@ -50,6 +52,10 @@ class NonlocalFlux {
   std::vector<int> unknown_;  ///< per node; -1: none
   int count_ = 0;             ///< number of unknowns
   Eigen::SparseMatrix<double> matrix_;
+  Eigen::VectorXd volume_;          ///< of the points around each node, m3
+  std::vector<double> fines_left_;  ///< of which the two below are
+  std::vector<double> weight_;      ///< w per solid point
+  Eigen::VectorXd mean_weight_;     ///< M per node
   LaggedPreconditioner solver_;
 };
 

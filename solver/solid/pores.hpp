@@ -17,7 +17,7 @@ struct PoreState {
   std::vector<double> water_volume;   ///< liquid minus fluidised fines, m3
   std::vector<double> concentration;  ///< c
   std::vector<double> air_volume;     ///< m3; empty where all soil is saturated
-  std::vector<double> flux;           ///< |q|, m/s; may be empty if no soil needs it
+  std::vector<double> flux;           ///< |q|, m/s; empty if no soil transfers momentum
 };
 
 /// Pore volume per element and field node at the start, m3.

@@ -62,6 +62,11 @@ class Skeleton {
   [[nodiscard]] virtual const std::vector<double>& porosity() const = 0;
   /// n_L per solid point at the start.
   [[nodiscard]] virtual const std::vector<double>& initial_porosity() const = 0;
+  /// Fines of a point that could erode at the start, m3, for its present volume.
+  [[nodiscard]] double erodible_at_start(int point) const {
+    return soils().points().volume[point] *
+           (soils().soil_of_point(point).porosity_max() - initial_porosity()[point]);
+  }
   /// Volume that a point has given to the liquid since the start minus its deposits, per present
   /// volume of its soil.
   [[nodiscard]] virtual double eroded_share(int point) const = 0;

@@ -147,6 +147,12 @@ bool SoilMap<Dim>::erodes() const {
 }
 
 template <int Dim>
+bool SoilMap<Dim>::transfers_momentum() const {
+  return std::ranges::any_of(scene_.soils,
+                             [](const Soil& soil) { return soil.erosion.momentum_transfer; });
+}
+
+template <int Dim>
 bool SoilMap<Dim>::deposits() const {
   return std::ranges::any_of(
       exchange_of_region_, [](const ExchangeModel& model) { return model.deposition.deposits(); });

@@ -113,6 +113,8 @@ class SoilMap {
 
   /// Whether some soil erodes.
   [[nodiscard]] bool erodes() const;
+  /// Whether the momentum of eroded grains acts on the liquid in some soil.
+  [[nodiscard]] bool transfers_momentum() const;
   /// Whether some soil catches fines.
   [[nodiscard]] bool deposits() const;
   /// What the exchange of some soil with the liquid depends on.

@@ -25,11 +25,10 @@ struct StrengthReductionOptions {
 /// `holds`, `fails`, `trials`, `iterations`, `fines_left`, `displacement_max`. Prints each factor
 /// with the body that fails on standard error. The file of the mechanism has the displacement in
 /// the trial of the smallest factor that fails, and its shear strain per element, both over the
-/// largest displacement. Throws InputError if no soil has a strength, if a region that
-/// is to fail has none, or if the state has other
-/// points or no such time. Throws NumericalError when nothing holds the soil, and, after the table
-/// has been written, for states without a factor: soil that fails with any strength, or undecided
-/// trials. Throws FileError.
+/// largest displacement. Throws InputError if no soil has a strength, if a region that is to fail
+/// has none, or if the state has other points or no such time. Throws NumericalError when nothing
+/// holds the soil, and, after the table has been written, for states without a factor: soil that
+/// fails with any strength, or undecided trials. Throws FileError.
 template <int Dim>
 void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& options);
 

@@ -33,12 +33,12 @@ done
 grep -rIl -- "$source" "$prefix" && fail 'these name the folder of the sources'
 
 doc=$prefix/share/doc/suffuse
-for page in "$doc"/*.md "$doc"/docs/*.md; do
+while read -r page; do
   # shellcheck disable=SC2013  # no link has spaces
-  for link in $(grep -o '](\(docs/\|\.\./\)\?[A-Za-z-]*\.md' "$page" | sed 's/^](//'); do
+  for link in $(grep -o '](\([A-Za-z.-]*/\)*[A-Za-z-]*\.md' "$page" | sed 's/^](//'); do
     [ -e "$(dirname "$page")/$link" ] || fail "$page: $link is missing"
   done
-done
+done < <(find "$doc" -name '*.md')
 
 cp "$doc"/examples/weir/* .
 "$prefix/bin/suffuse-mesher" weir.toml --set time.end=2 > /dev/null

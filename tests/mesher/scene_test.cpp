@@ -778,10 +778,10 @@ TEST(SceneSchema, declares_each_key_once_and_within_its_own_bounds) {
 }
 
 TEST(SceneReference, is_up_to_date) {
-  EXPECT_EQ(read_text(fs::path(SUFFUSE_SOURCE_DIR) / "docs/scene-reference.md"),
+  EXPECT_EQ(read_text(fs::path(SUFFUSE_SOURCE_DIR) / "docs/reference/scene-reference.md"),
             scene_reference_markdown())
-      << "docs/scene-reference.md is stale; run in the root of the repository:\n"
-         "  suffuse-mesher --scene-reference > docs/scene-reference.md";
+      << "docs/reference/scene-reference.md is stale; run in the root of the repository:\n"
+         "  suffuse-mesher --scene-reference > docs/reference/scene-reference.md";
 }
 
 TEST(SceneReference, has_every_key) {

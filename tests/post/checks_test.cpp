@@ -251,8 +251,8 @@ TEST(Checks, TheBaseOfAnUnstableSoilIsItsFines) {
   EXPECT_NEAR(*row_of(report, "filter-retention", "sand -> clay").factor, 4.0 * d85 / d15, 1e-6);
 }
 
-/// Where two seepage faces meet at a toe, the water that leaves has the pressure of the air: a
-/// column from there must not begin with more.
+/// Water that leaves through a seepage face has the pressure of the air. This holds at the node of
+/// a toe too, where two seepage faces meet, and the check of a column below it starts from there.
 TEST(Checks, NodesOfSeepageFacesHaveNoPressure) {
   const ScratchFolder scratch;
   const std::string geometry =

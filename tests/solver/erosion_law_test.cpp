@@ -219,7 +219,8 @@ TEST(ErosionLaws, AreAddedAsTheDocumentationSays) {
   };
   const std::string law = text_of("/tests/solver/second_order.cpp");
   ASSERT_NE(law.find("second_order"), std::string::npos);
-  EXPECT_NE(text_of("/docs/contributing.md").find("```cpp\n" + law + "```"), std::string::npos);
+  EXPECT_NE(text_of("/docs/develop/contributing.md").find("```cpp\n" + law + "```"),
+            std::string::npos);
 }
 
 // Single laws, by numbers.

@@ -1,4 +1,5 @@
-/// The last fines are the best sheltered: the state is n_e^2. The example of docs/contributing.md.
+/// The last fines are the best sheltered: the state is n_e^2. The example of
+/// docs/develop/contributing.md.
 
 #include "physics/erosion/erosion_law.hpp"
 

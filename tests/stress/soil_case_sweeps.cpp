@@ -132,7 +132,8 @@ Sweep to_the_grains_sweep() {
     const bool erodes = seed % 2 == 0;
     std::string young = number(stiffness);
     if (erodes) {
-      // If the soil without fines were softer, steps would become too short (docs/stability.md).
+      // If the soil without fines were softer, steps would become too short
+      // (docs/evidence/stability.md).
       const double left = std::max(stiffness * random.decades(1e-4, 0.3), 0.6 * load);
       young = "[[1.0, " + young + "], [0.0, " + number(left) + "]]";
     }

@@ -110,10 +110,6 @@ std::string name_of(Shape shape) {
   return shape == Shape::column ? "column" : shape == Shape::weir ? "weir" : "levee";
 }
 
-}  // namespace
-
-namespace {
-
 Sweep soils_at_random(const std::string& name, const std::string& what, unsigned count,
                       bool lengths) {
   Sweep sweep{name, what, {}};

@@ -10,4 +10,4 @@ done
 {
   echo
   awk -F, -v form=markdown -f "$here/report.awk" "$out/accuracy.csv" "$out/left-out.csv"
-} | "$here/../between_marks.sh" results "$docs/accuracy.md"
+} | "$here/../between_marks.sh" results "$docs/evidence/accuracy.md"

@@ -1,6 +1,6 @@
 # What the runs reached, for people: awk -F, -f report.awk -v form=FORM accuracy.csv left-out.csv
 #
-# form: markdown, the sections of docs/accuracy.md; check, verdicts on the runs, exit 1 when one is wrong.
+# form: markdown, the sections of docs/evidence/accuracy.md; check, verdicts on the runs, exit 1 when one is wrong.
 # left-out.csv has the columns problem, scheme, size, points_per_element, tolerance, steps, seconds.
 
 function words(scheme,    part) {

@@ -12,4 +12,4 @@ run=$out/pile-over-clay/adapted-0.01/pile-over-clay
   echo
   cat "$out/table.md"
   echo
-} | "$here/../between_marks.sh" adapted "$docs/accuracy.md"
+} | "$here/../between_marks.sh" adapted "$docs/evidence/accuracy.md"

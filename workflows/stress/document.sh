@@ -1,5 +1,5 @@
 #!/bin/bash
-# Puts the tables between the marks of docs/stability.md and the chart into the folder: document.sh
+# Puts the tables between the marks of docs/evidence/stability.md and the chart into the folder: document.sh
 # PROGRAM OUT DOCS
 set -eu -o pipefail
 program=$1 out=$2 docs=$3
@@ -9,4 +9,4 @@ cp "$out/stress.png" "$docs/images/stress.png"
 {
   echo
   awk -F, -v form=markdown -v what="$out/sweeps.csv" -f "$here/report.awk" "$out/stress.csv"
-} | "$here/../between_marks.sh" stress "$docs/stability.md"
+} | "$here/../between_marks.sh" stress "$docs/evidence/stability.md"

@@ -1,4 +1,4 @@
-# The tables of docs/stability.md from those of the sweeps: awk -F, -v form=markdown|check [-v what=WHATS.csv] -f report.awk TABLE.csv
+# The tables of docs/evidence/stability.md from those of the sweeps: awk -F, -v form=markdown|check [-v what=WHATS.csv] -f report.awk TABLE.csv
 # WHATS.csv: the name of a sweep and what it does, from suffuse-stress --list.
 BEGIN {
   while (what != "" && (getline line < what) > 0) {

@@ -25,7 +25,7 @@ MECHANISMS = ["erosion", "heave", "hyd-stresses", "hyd-forces", "uplift", "blank
 EROSION = "erosion"
 SLOPE = "slope"
 STATES = ["start", "last", "all", "checks"]
-# What the programs say where soil cannot bear its loads; docs/troubleshooting.md has the messages.
+# What the programs say where soil cannot bear its loads; docs/use/troubleshooting.md has the messages.
 SOIL_FAILS = re.compile(r"no equilibrium|lost its equilibrium|lose its equilibrium|soil that fails|the soil fails")
 NO_STRENGTH = "got no soil with a strength"
 

@@ -62,14 +62,14 @@ expect 'flux that starts up' close "$(same startup 0.3 flow-startup.csv \
 # The table is for a soil with ten times the conductivity.
 expect 'flux that grows with porosity' close "$(same feedback 0.1 permeability-feedback.csv '$at["alpha"] == 0.005' q)"
 
-before=$(cat "$workflows/../docs/accuracy.md" "$workflows"/../docs/images/*.png | cksum)
+before=$(cat "$workflows/../docs/evidence/accuracy.md" "$workflows"/../docs/images/*.png | cksum)
 status=0
 make -C "$workflows" "${make_arguments[@]}" accuracy SHORT=1 OUT="$work/out" > "$work/make.log" 2>&1 || status=$?
 [ $status -eq 0 ] || cat "$work/make.log"
 expect 'accuracy SHORT=1' 0 $status
 grep '^\(ok\|WRONG\): ' "$work/make.log" || true
 expect 'it leaves the document as it is' "$before" \
-  "$(cat "$workflows/../docs/accuracy.md" "$workflows"/../docs/images/*.png | cksum)"
+  "$(cat "$workflows/../docs/evidence/accuracy.md" "$workflows"/../docs/images/*.png | cksum)"
 
 out=$work/out/accuracy-short
 judge() { awk -F, -v form=check -f "$workflows/accuracy/report.awk" "$1" "$out/left-out.csv" > "$work/judged" && echo right || echo wrong; }

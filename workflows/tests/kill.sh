@@ -6,7 +6,7 @@ set -euo pipefail
 workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-before=$(cksum < "$workflows/../docs/stability.md")
+before=$(cksum < "$workflows/../docs/evidence/stability.md")
 make -C "$workflows" "$@" kill KILLS="${KILLS:-10}" OUT="$work/out"
-[ "$before" == "$(cksum < "$workflows/../docs/stability.md")" ] ||
-  { echo "FAILED: a few kills have changed docs/stability.md"; exit 1; }
+[ "$before" == "$(cksum < "$workflows/../docs/evidence/stability.md")" ] ||
+  { echo "FAILED: a few kills have changed docs/evidence/stability.md"; exit 1; }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Conductivity laws: the dependence of the hydraulic conductivity on porosity and fines. Each law
-/// is one file of this folder; docs/contributing.md says how to add one.
+/// is one file of this folder; docs/develop/contributing.md says how to add one.
 
 #include <limits>
 #include <span>

@@ -1,9 +1,9 @@
 #pragma once
 
 /// Drives of erosion: the erosion rate grows with the drive above its threshold. Each drive is one
-/// file of this folder; docs/contributing.md says how to add one. In unsaturated soil only pores
-/// that carry flow erode: drives use k_r i, the gradient that would drive the same flux through the
-/// saturated soil (docs/theory.md, "Erosion").
+/// file of this folder; docs/develop/contributing.md says how to add one. In unsaturated soil only
+/// pores that carry flow erode: drives use k_r i, the gradient that would drive the same flux
+/// through the saturated soil (docs/theory/theory.md, "Erosion").
 
 #include <span>
 #include <string_view>

@@ -1,8 +1,8 @@
 #pragma once
 
 /// Erosion laws: the rate at which fines leave the soil and porosity grows (D^S n_L/Dt = phi_e for
-/// a rigid skeleton, Eq. 1 of the paper). Each law is one file of this folder; docs/contributing.md
-/// says how to add one.
+/// a rigid skeleton, Eq. 1 of the paper). Each law is one file of this folder;
+/// docs/develop/contributing.md says how to add one.
 ///
 ///   phi_e = state(n_e - residual, c) . rate . <D - D_cr> . <1 - c/c_cr>,   <x> = max(x, 0)
 ///

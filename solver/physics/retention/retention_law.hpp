@@ -1,7 +1,7 @@
 #pragma once
 
 /// Retention laws: saturation and relative conductivity of a soil under suction. Each law is one
-/// file of this folder; docs/contributing.md says how to add one.
+/// file of this folder; docs/develop/contributing.md says how to add one.
 
 #include <algorithm>
 #include <limits>

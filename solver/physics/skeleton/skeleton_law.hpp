@@ -1,8 +1,8 @@
 #pragma once
 
 /// Laws of the skeleton: effective stress as a function of the deformation. Each law is one file of
-/// this folder; docs/contributing.md says how to add one. All are isotropic, so a law works with
-/// principal values; `skeleton_response.hpp` forms the tensors.
+/// this folder; docs/develop/contributing.md says how to add one. All are isotropic, so a law works
+/// with principal values; `skeleton_response.hpp` forms the tensors.
 
 #include <Eigen/Core>
 #include <span>

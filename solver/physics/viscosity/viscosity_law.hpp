@@ -1,7 +1,7 @@
 #pragma once
 
 /// Viscosity laws: the dependence of the liquid's viscosity on its fines. Each law is one file of
-/// this folder; docs/contributing.md says how to add one.
+/// this folder; docs/develop/contributing.md says how to add one.
 
 #include <span>
 #include <string_view>
