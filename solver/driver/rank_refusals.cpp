@@ -25,8 +25,6 @@ void refuse_on_ranks(const Case<Dim>& c) {
   refuse(std::ranges::any_of(scene.walls, &Wall::conductance), "wall",
          "walls that let liquid through", "walls without a conductance");
   refuse(scene.moves(), "soil", "soil that moves", "soil at rest");
-  refuse(std::ranges::any_of(scene.soils, [](const Soil& s) { return s.erosion.length > 0.0; }),
-         "soil", "an erosion.length", "no such key");
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 

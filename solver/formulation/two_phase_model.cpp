@@ -110,6 +110,7 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
       point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
   flows.start = start;
   flows.end = flow.end;
+  flows.take_liquid(exchange_.flows());
   find_flux_change(grid_, soils_, flux_history_, flows, threads());
   solid_->find_eroding_flux(flows);
   exchange_.start_interval(std::move(flows));

@@ -29,14 +29,25 @@ ErodingSkeleton<Dim>::ErodingSkeleton(const Grid<Dim>& grid, const SoilMap<Dim>&
 }
 
 template <int Dim>
-void ErodingSkeleton<Dim>::find_eroding_flux(PointFlows& flows) const {
-  if (!nonlocal_flux_ || flows.flux.empty()) return;
-  std::vector<double> fines_left(porosity_.size(), 0.0);
+std::vector<double> ErodingSkeleton<Dim>::fines_left_at(const std::vector<double>& porosity) const {
+  std::vector<double> result(porosity.size(), 0.0);
   for (int p = 0; p < soils_.points().size(); ++p) {
     const double at_start = this->erodible_at_start(p);
-    if (at_start > 0.0) fines_left[p] = state_.erodible_volume[p] / at_start;
+    if (!(at_start > 0.0)) continue;
+    const double lost = soils_.points().volume[p] * (porosity[p] - porosity_[p]);
+    result[p] = (state_.erodible_volume[p] - lost) / at_start;
   }
-  nonlocal_flux_->find(fines_left, flows);
+  return result;
+}
+
+template <int Dim>
+void ErodingSkeleton<Dim>::find_eroding_flux(PointFlows& flows) const {
+  if (!nonlocal_flux_ || flows.flux.empty()) return;
+  nonlocal_flux_->find(fines_left_at(porosity_), flows);
+  const double middle = 0.5 * (flows.start + flows.end);
+  if (flows.end <= flows.start || !exchanges_within(flows.start, middle)) return;
+  // The fines of the middle of an interval give the mean over it to second order.
+  nonlocal_flux_->find(fines_left_at(porosity_after(flows.start, middle, flows)), flows);
 }
 
 template <int Dim>

@@ -63,6 +63,8 @@ class ErodingSkeleton : public Skeleton<Dim> {
   [[nodiscard]] double porosity_of(int point) const {
     return 1.0 - state_.solid_volume(point) / soils_.points().volume[point];
   }
+  /// Share of the fines at the start that each point has, if its porosity becomes this from now on.
+  [[nodiscard]] std::vector<double> fines_left_at(const std::vector<double>& porosity) const;
   /// The law of a point with its present parameters; `changed` stores them if they differ from
   /// those of its soil.
   const ExchangeModel& model_of(int point, ExchangeModel& changed) const;

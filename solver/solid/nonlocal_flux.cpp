@@ -21,7 +21,10 @@ NonlocalFlux<Dim>::NonlocalFlux(const Grid<Dim>& grid, const SoilMap<Dim>& soils
     : grid_(grid), soils_(soils), solver_(threads, {}, flow_factor(Dim, grid.face_count())) {
   number_nodes();
   assemble();
-  volume_ = at_nodes(std::vector<double>(soils.points().size(), 1.0));
+  if (grid.ranks().count() > 1) shared_.emplace(grid.ranks(), grid.node_rows(), unknown_);
+  const std::vector<double>& volume = soils.points().volume;
+  volume_ = Eigen::Map<const Values>(volume.data(), static_cast<Eigen::Index>(volume.size()));
+  weight_ = volume_;
 }
 
 template <int Dim>
@@ -54,80 +57,62 @@ void NonlocalFlux<Dim>::assemble() {
   }
   matrix_.resize(count_, count_);
   matrix_.setFromTriplets(entries.begin(), entries.end());
-}
 
-template <int Dim>
-Eigen::VectorXd NonlocalFlux<Dim>::at_nodes(const std::vector<double>& values) const {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(count_);
   const MaterialPoints<Dim>& points = soils_.points();
+  entries.clear();
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
     if (length(e) == 0.0) continue;
     for (int a = 0; a <= Dim; ++a) {
-      sum[unknown_[grid_.mesh.elements[e][a]]] +=
-          points.barycentric[p][a] * points.volume[p] * values[p];
+      entries.emplace_back(unknown_[grid_.mesh.elements[e][a]], p, points.barycentric[p][a]);
     }
   }
-  return sum;
+  shape_.resize(count_, points.size());
+  shape_.setFromTriplets(entries.begin(), entries.end());
 }
 
 template <int Dim>
-Eigen::VectorXd NonlocalFlux<Dim>::smoothed(const Eigen::VectorXd& source) {
+auto NonlocalFlux<Dim>::smoothed(const Values& source) -> Values {
+  const Values at_nodes = shape_ * source.cwiseProduct(volume_);
+  const double most = largest_of_all(grid_.ranks(), at_nodes.lpNorm<Eigen::Infinity>());
   // The guess is not an earlier solution, as a resumed run has none.
-  const Eigen::VectorXd guess = Eigen::VectorXd::Zero(count_);
-  const Eigen::VectorXd allowed =
-      Eigen::VectorXd::Constant(count_, tolerance * source.cwiseAbs().maxCoeff());
-  return solver_.solve({matrix_, source, guess, allowed});
-}
-
-template <int Dim>
-std::vector<double> NonlocalFlux<Dim>::at_points(const Eigen::VectorXd& nodes,
-                                                 std::vector<double> values) const {
-  const MaterialPoints<Dim>& points = soils_.points();
-  for (int p = 0; p < points.size(); ++p) {
-    const int e = points.element[p];
-    if (length(e) == 0.0) continue;
-    values[p] = 0.0;
-    for (int a = 0; a <= Dim; ++a) {
-      values[p] += points.barycentric[p][a] * nodes[unknown_[grid_.mesh.elements[e][a]]];
+  const Values guess = Values::Zero(count_);
+  const Values allowed = Values::Constant(count_, tolerance * most);
+  const SymmetricSystem system{matrix_, at_nodes, guess, allowed};
+  const Values found = shared_ ? shared_->solve(system) : solver_.solve(system);
+  // Not the product with the transposed matrix, for which Eigen starts threads of its own.
+  Values at_points = Values::Zero(source.size());
+  for (Eigen::Index p = 0; p < at_points.size(); ++p) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(shape_, p); it; ++it) {
+      at_points[p] += it.value() * found[it.row()];
     }
   }
-  return values;
+  return at_points;
 }
 
 template <int Dim>
 void NonlocalFlux<Dim>::find_weight(const std::vector<double>& fines_left) {
   // An interval asks several times with the same fines.
-  if (fines_left == fines_left_) return;
+  if (!any_of_all(grid_.ranks(), fines_left != fines_left_)) return;
   fines_left_ = fines_left;
-  weight_ = fines_left;
-  for (double& w : weight_) w = std::max(w, least_weight);
-  mean_weight_ = smoothed(at_nodes(weight_));
+  for (std::size_t p = 0; p < fines_left.size(); ++p) {
+    weight_[p] = std::max(fines_left[p], least_weight);
+  }
+  mean_weight_ = smoothed(weight_);
 }
 
 template <int Dim>
 void NonlocalFlux<Dim>::find(const std::vector<double>& fines_left, PointFlows& flows) {
   find_weight(fines_left);
-  const auto mean = [&](const std::vector<double>& values) {
-    std::vector<double> weighted = values;
-    for (std::size_t p = 0; p < weighted.size(); ++p) weighted[p] *= weight_[p];
-    const Eigen::VectorXd of_fines = smoothed(at_nodes(weighted));
-    const Eigen::VectorXd of_place = at_nodes(values);
-    Eigen::VectorXd nodes(count_);
-    for (int i = 0; i < count_; ++i) {
-      nodes[i] = mean_weight_[i] > without_fines ? of_fines[i] / mean_weight_[i]
-                                                 : of_place[i] / volume_[i];
-    }
-    return at_points(nodes, values);
-  };
-  flows.eroding_flux = mean(flows.flux);
-  // Undershoots where angles are obtuse.
-  for (double& flux : flows.eroding_flux) flux = std::max(flux, 0.0);
-  if (flows.flux_change.empty()) return;
-  flows.eroding_flux_change = mean(flows.flux_change);
-  for (std::size_t p = 0; p < weight_.size(); ++p) {
-    const double most = 2.0 * flows.eroding_flux[p];
-    flows.eroding_flux_change[p] = std::clamp(flows.eroding_flux_change[p], -most, most);
+  const Values flux = Eigen::Map<const Values>(flows.flux.data(), weight_.size());
+  const Values weighted = smoothed(weight_.cwiseProduct(flux));
+  flows.eroding_flux = flows.flux;
+  for (int p = 0; p < soils_.points().size(); ++p) {
+    if (length(soils_.points().element[p]) == 0.0) continue;
+    if (!flows.flux_change.empty()) flows.flux_change[p] = 0.0;
+    if (!(mean_weight_[p] > without_fines)) continue;
+    // Means undershoot zero where angles are obtuse.
+    flows.eroding_flux[p] = std::max(weighted[p] / mean_weight_[p], 0.0);
   }
 }
 

@@ -3,11 +3,12 @@
 /// The flux that erosion laws with a length see: a mean over the soil around a place.
 
 #include <Eigen/SparseCore>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "grid/grid.hpp"
 #include "linear/lagged_preconditioner.hpp"
+#include "linear/shared_system.hpp"
 #include "solid/point_flows.hpp"
 
 namespace suffuse {
@@ -23,26 +24,25 @@ namespace suffuse {
 template <int Dim>
 class NonlocalFlux {
  public:
-  /// Keeps references to the grid and the soils, whose points must not move.
+  /// Keeps references to the grid and the soils, whose points must not move. All ranks have to call
+  /// all functions.
   NonlocalFlux(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int threads);
   NonlocalFlux(const NonlocalFlux&) = delete;
   NonlocalFlux& operator=(const NonlocalFlux&) = delete;
 
-  /// Sets `eroding_flux` of the flows, and `eroding_flux_change` if they have a `flux_change`.
+  /// Sets `eroding_flux` of the flows. It is a mean over their interval, without a `flux_change`.
   /// \param fines_left  w per solid point
   void find(const std::vector<double>& fines_left, PointFlows& flows);
 
  private:
+  using Values = Eigen::VectorXd;
+
   void number_nodes();
   void assemble();
   /// Finds M, unless it is that of the last call.
   void find_weight(const std::vector<double>& fines_left);
-  /// Sum of the values at points over the nodes, in shares of the points' barycentric coordinates.
-  [[nodiscard]] Eigen::VectorXd at_nodes(const std::vector<double>& values) const;
-  [[nodiscard]] Eigen::VectorXd smoothed(const Eigen::VectorXd& source);
-  /// Value at each point of soil with a length; other points keep theirs of `values`.
-  [[nodiscard]] std::vector<double> at_points(const Eigen::VectorXd& nodes,
-                                              std::vector<double> values) const;
+  /// The solution S at the points of S - div(l^2 grad S) = `source`, which is given at them.
+  [[nodiscard]] Values smoothed(const Values& source);
   [[nodiscard]] double length(int element) const {
     return soils_.erosion_of_element(element).length;
   }
@@ -52,11 +52,14 @@ class NonlocalFlux {
   std::vector<int> unknown_;  ///< per node; -1: none
   int count_ = 0;             ///< number of unknowns
   Eigen::SparseMatrix<double> matrix_;
-  Eigen::VectorXd volume_;          ///< of the points around each node, m3
-  std::vector<double> fines_left_;  ///< of which the two below are
-  std::vector<double> weight_;      ///< w per solid point
-  Eigen::VectorXd mean_weight_;     ///< M per node
+  /// Per unknown and solid point: its shape function there; none for soil without a length.
+  Eigen::SparseMatrix<double> shape_;
+  Values volume_;                   ///< per solid point, m3
+  std::vector<double> fines_left_;  ///< those of the two below
+  Values weight_;                   ///< w per solid point
+  Values mean_weight_;              ///< M per solid point
   LaggedPreconditioner solver_;
+  std::optional<SharedSystem> shared_;  ///< on several ranks, in the place of `solver_`
 };
 
 }  // namespace suffuse

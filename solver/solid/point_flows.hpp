@@ -14,26 +14,32 @@ namespace suffuse {
 
 /// Vectors may be empty if no law needs them.
 struct PointFlows {
-  double start = 0.0;               ///< of the interval, s
-  double end = 0.0;                 ///< s
-  std::vector<double> flux;         ///< per solid point: mean of |q|, m/s
-  std::vector<double> flux_change;  ///< per solid point: of |q| over the interval, m/s
-  /// Likewise, as erosion sees them; empty if no soil has an `erosion.length`.
+  double start = 0.0;        ///< of the interval, s
+  double end = 0.0;          ///< s
+  std::vector<double> flux;  ///< per solid point: mean of |q|, m/s
+  /// Per solid point: change of |q| over the interval, m/s; none where soil has an
+  /// `erosion.length`.
+  std::vector<double> flux_change;
+  /// Mean of |q| as erosion sees it, m/s; empty if no soil has an `erosion.length`.
   std::vector<double> eroding_flux;
-  std::vector<double> eroding_flux_change;
   std::vector<double> resistance;     ///< per solid point: see PlaceFlow
   std::vector<double> concentration;  ///< per solid point: present c
   std::vector<double> saturation;     ///< per element: liquid per pore volume
   LiquidMotion motion = LiquidMotion::stays;
 
+  /// Takes concentration, saturation and motion of another flow.
+  void take_liquid(const PointFlows& flows) {
+    concentration = flows.concentration;
+    saturation = flows.saturation;
+    motion = flows.motion;
+  }
   /// |q| that erosion sees at a point at the ends of a part of the interval, m/s; may be unset if
   /// no law needs it.
   [[nodiscard]] std::pair<double, double> flux_ends(int point, double from, double to) const {
     if (flux.empty()) return {unset, unset};
     const double mean = eroding_flux.empty() ? flux[point] : eroding_flux[point];
     if (flux_change.empty()) return {mean, mean};
-    const std::vector<double>& change = eroding_flux.empty() ? flux_change : eroding_flux_change;
-    const double slope = change[point] / (end - start);
+    const double slope = flux_change[point] / (end - start);
     const double middle = 0.5 * (start + end);
     return {std::max(0.0, mean + slope * (from - middle)),
             std::max(0.0, mean + slope * (to - middle))};

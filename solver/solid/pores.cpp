@@ -67,9 +67,7 @@ std::vector<double> PoreForecast<Dim>::of_points_at(double time) const {
   const SoilMap<Dim>& soils = solid_.soils();
   PointFlows ahead =
       point_flows(grid_, soils, flux_.extrapolated(time - time_), flux_.duration, threads_);
-  ahead.concentration = liquid_.concentration;
-  ahead.saturation = liquid_.saturation;
-  ahead.motion = liquid_.motion;
+  ahead.take_liquid(liquid_);
   solid_.find_eroding_flux(ahead);
   return solid_.porosity_after(time_, time, ahead);
 }

@@ -73,7 +73,8 @@ class Skeleton {
   /// Mean n_L per element.
   [[nodiscard]] virtual std::vector<double> element_porosity() const = 0;
 
-  /// Sets the flux that erosion sees, where soil has an `erosion.length`, by the present fines.
+  /// Sets the flux that erosion sees, where soil has an `erosion.length`: its mean over the
+  /// interval of the flows that starts now, or its present value if they have no interval.
   virtual void find_eroding_flux(PointFlows& /*flows*/) const {}
   /// Whether fines can be exchanged with the liquid between two times.
   [[nodiscard]] virtual bool exchanges_within(double from, double to) const = 0;

@@ -327,7 +327,7 @@ std::vector<std::string> sentences(const Estimate& e, int threads) {
   std::ostringstream what;
   what << "estimate: " << std::llround(e.steps) << " steps, " << duration_text(e.seconds) << " on "
        << counted(threads, "thread") << ", " << bytes_text(e.memory) << " of memory, ";
-  const std::string files = counted(e.snapshots, "snapshot") + " and 3 tables";
+  const std::string files = counted(e.snapshots, "snapshot") + " and its tables";
   if (std::isnan(e.disk)) {
     what << files << " of unknown size (the folder for temporary files cannot be written)";
   } else {
