@@ -54,7 +54,7 @@ install(FILES workflows/paraview/show_results.py DESTINATION ${CMAKE_INSTALL_DAT
 
 # --- Documents and examples; links between the documents hold ---
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${documents} COMPONENT programs)
-install(DIRECTORY docs DESTINATION ${documents} COMPONENT programs PATTERN man EXCLUDE)
+install(DIRECTORY docs changelog DESTINATION ${documents} COMPONENT programs PATTERN man EXCLUDE)
 # Pages refer to the scenes as they do in the sources; examples/ leads there too.
 foreach(folder examples paper)
   install(DIRECTORY workflows/${folder} DESTINATION ${documents}/workflows COMPONENT programs
