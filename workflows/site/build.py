@@ -56,7 +56,8 @@ def navigation(pages):
     yield "nav:"
     yield "  - Suffuse: README.md"
     yield f"  - Index: {INDEX}"
-    order = list(dict.fromkeys(page for page in linked(INDEX) if page.suffix == ".md"))
+    # The paths of readers name pages before the tables of the rooms do.
+    order = [*dict.fromkeys(page for page in reversed([*linked(INDEX)]) if page.suffix == ".md")][::-1]
     rooms = {room.capitalize(): [page for page in order if page.parts[:2] == ("docs", room)] for room in ROOMS}
     rooms["Examples"] = [page for page in pages if page.parts[:2] == ("workflows", "examples") and page.suffix == ".md"]
     for room, entries in rooms.items():
