@@ -93,11 +93,12 @@ def mistakes_are_found():
     (root / "docs").mkdir(parents=True)
     (root / "README.md").write_text("# A\n## One `two`, *three*\n[a](#one-two-three) [b](#four) [c](docs/b.md) [d](docs/b.md#x-1)\n"
                                     "[e](docs/b.md#x-2) `[f](g)`\n\n    [h](i)\n" + "word " * 600)
-    (root / "docs/b.md").write_text("# X\n## X\n![y](z.png)\n")
+    (root / "docs/b.md").write_text("# X\n## X\n![y](z.png) | word |\n<!-- t: by a target -->\n| 1 |\n<!-- end of t -->\n")
     (root / "docs/README.md").write_text("[r](../README.md)\n")
     expected = ["README.md:3: #four has no such heading", "README.md:4: docs/b.md#x-2 has no such heading",
                 "docs/b.md:3: there is no z.png", "README.md: has 613 words; expected at most 600",
-                "docs/b.md: is not in docs/README.md", "check_documents: 3 pages, 5 problems"]
+                "docs/b.md: is not in docs/README.md",
+                "check_documents: 3 pages, 5 words written below docs/ (23 by wc -w), 5 problems"]
     lines = said(sys.executable, WORKFLOWS / "check_documents.py", root).splitlines()
     return [] if lines == expected else [f"check_documents.py: got {lines}; expected {expected}"]
 
