@@ -3,6 +3,7 @@
 # needs no rights.
 #
 #   provision.sh           install what is missing
+#   provision.sh GROUP     the same for the packages that packages.txt lists for this group alone
 #   provision.sh --check   only name what is missing; exit 1 when something is
 set -euo pipefail
 
@@ -14,9 +15,14 @@ fail() {
   exit 1
 }
 
-[ $# -eq 0 ] || [ "$*" = --check ] || fail "got '$*'; expected --check or nothing"
+listed() { sed -e 's/#.*//' -e 's/[[:space:]]*$//' -e '/^$/d' "$packages_file"; }
 
-mapfile -t packages < <(sed -e 's/#.*//' -e 's/[[:space:]]*$//' -e '/^$/d' "$packages_file")
+if [ $# -eq 0 ] || [ "$*" = --check ]; then
+  mapfile -t packages < <(listed | grep -v :)
+else
+  mapfile -t packages < <(listed | sed -n "s/^${*//[!a-z-]/}: *//p")
+  [ ${#packages[@]} -gt 0 ] || fail "got '$*'; expected --check, a group of packages.txt, or nothing"
+fi
 
 command -v dpkg-query >/dev/null ||
   fail "this is not a Debian system (no dpkg-query). Install the equivalents of:" "${packages[*]}"

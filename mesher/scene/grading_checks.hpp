@@ -1,7 +1,7 @@
 #pragma once
 
 /// Whether the fines of a soil can move between its coarse grains, judged by its gradation alone:
-/// criteria from the literature, with sources. docs/theory/theory.md, "Gradings".
+/// criteria from the literature, with sources. docs/theory/exchange.md, "Gradings".
 ///
 /// F: mass finer than d; H: mass between d and 4 d; both in per cent of the whole.
 

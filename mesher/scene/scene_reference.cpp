@@ -36,7 +36,7 @@ replaces it, as in the last line: the pressure given in the file is gone.
 ## Keys
 
 `-` stands for a quantity without a unit, or for a key without a symbol. Symbols are those of
-[the theory](../theory/theory.md).
+[the theory](../theory/README.md).
 )";
 
 constexpr const char* example = R"(

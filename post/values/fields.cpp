@@ -49,7 +49,7 @@ void check_place(const std::vector<NamedPlace>& places, const std::string& on,
       InputProblem{command, "--on", '"' + on + '"', quoted_list(names), closest_name(on, names)}});
 }
 
-/// A blank and the symbol of a field from the table in docs/theory/theory.md, or nothing.
+/// A blank and the symbol of a field from the table in docs/theory/README.md, or nothing.
 std::string symbol_of(const std::string& name) {
   static const std::map<std::string, std::string> symbols{
       {"porosity", "n_L"},          {"solid_fraction", "n_S"},   {"skeleton_fraction", "n_C"},

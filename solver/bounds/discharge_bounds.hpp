@@ -1,6 +1,6 @@
 #pragma once
 
-/// How far the discharge of a steady flow can be off (docs/theory/theory.md, "Bounds of the
+/// How far the discharge of a steady flow can be off (docs/theory/flow.md, "Bounds of the
 /// discharge").
 ///
 /// The fluxes q of the mixed elements balance in every element; a continuous head h has the

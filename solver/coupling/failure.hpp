@@ -1,7 +1,8 @@
 #pragma once
 
-/// Takes moving soil from equilibrium to inertia and back by the table of docs/theory/theory.md,
-/// "When soil fails". No other class starts or ends inertia, or knows the scene's `time.failure`.
+/// Takes moving soil from equilibrium to inertia and back by the table of
+/// docs/theory/moving-soil.md, "When soil fails". No other class starts or ends inertia, or knows
+/// the scene's `time.failure`.
 
 #include <string>
 

@@ -12,8 +12,8 @@ namespace suffuse {
 namespace {
 
 /// Fixed-stress storage over the compressibility of soil that cannot move sideways. With less, the
-/// iteration of undrained soil may not converge; with more it is slower (docs/theory/theory.md,
-/// "Flow and motion").
+/// iteration of undrained soil may not converge; with more it is slower
+/// (docs/theory/moving-soil.md, "Flow and motion").
 constexpr double held_storage = 1.5;
 /// Share of this storage that remains where soil with inertia has a mobility instead: it fixes the
 /// level of the pressure.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Motion of water and air in the pores of moving soil (docs/theory/theory.md, "Air beside soil
-/// that moves").
+/// Motion of water and air in the pores of moving soil (docs/theory/moving-soil.md, "Air beside
+/// soil that moves").
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// Soil that loses its equilibrium repeatedly without moving far: it comes to rest each time, but
-/// has no equilibrium there (docs/theory/theory.md, "When soil fails").
+/// has no equilibrium there (docs/theory/moving-soil.md, "When soil fails").
 
 #include <vector>
 

@@ -55,7 +55,7 @@ Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& dis
 ///           + M (du - dt v*)/dt^2 where inertia counts (backward Euler)
 ///
 /// with the Kirchhoff stress tau of each point by its law, J = det F and the pore pressure p of the
-/// element (docs/theory/theory.md, "Equilibrium of the solid"). Where elements share their
+/// element (docs/theory/moving-soil.md, "Equilibrium of the solid"). Where elements share their
 /// dilatation, laws see (Jm/J)^(1/d) F with the mean ratio Jm of `SharedDilatation`, and the forces
 /// are those of the same work. Contributions of elements are added in the order of the elements:
 /// the same bits on any number of threads.

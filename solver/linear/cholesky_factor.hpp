@@ -10,7 +10,7 @@ namespace suffuse {
 
 /// L D L^T by Eigen, with unknowns ordered by approximate minimum degree. Substitution is written
 /// here as plain loops over the columns of L: they take half the time of Eigen's, and are most of
-/// the cost of conjugate gradients (docs/develop/architecture.md has the numbers).
+/// the cost of conjugate gradients (docs/develop/decisions.md has the numbers).
 class CholeskyFactor final : public Factor {
  public:
   void factorise(const Eigen::SparseMatrix<double>& matrix) override;

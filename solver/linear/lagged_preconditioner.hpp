@@ -28,7 +28,7 @@ struct SolveCounts {
 };
 
 /// Whether multigrid is better for the flow on a mesh than a direct factor: in three dimensions
-/// from 30 000 faces on (docs/develop/architecture.md has the numbers).
+/// from 30 000 faces on (docs/develop/decisions.md has the numbers).
 constexpr bool prefers_multigrid(int dimension, int faces) {
   return dimension == 3 && faces >= 30'000;
 }

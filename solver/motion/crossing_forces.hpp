@@ -14,7 +14,7 @@ namespace suffuse {
 /// the soil would move by a finite distance however short the step, and water, which cannot leave
 /// in so short a time, would carry the difference. Instead, the difference is a force that keeps
 /// the balance after each motion and fades while water leaves the elements around
-/// (docs/theory/theory.md, "Points cross elements").
+/// (docs/theory/moving-soil.md, "Points cross elements").
 template <int Dim>
 class CrossingForces {
  public:
@@ -36,7 +36,7 @@ class CrossingForces {
 
   /// The forces fade in this many times h^2/c_v, h: height of an element. With 20, errors do not
   /// fall with the mesh, and a surface whose pores close is pressed shut; with 0.1, it loses its
-  /// equilibrium (docs/theory/theory.md).
+  /// equilibrium (docs/theory/moving-soil.md).
   static constexpr double drainage_times = 1.0;
 
  private:

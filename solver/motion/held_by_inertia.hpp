@@ -1,7 +1,7 @@
 #pragma once
 
 /// Response of soil with inertia to pressures within a step, for the iteration of flow and motion
-/// (docs/theory/theory.md, "Inertia of the soil").
+/// (docs/theory/moving-soil.md, "Inertia of the soil").
 
 #include <vector>
 

@@ -22,7 +22,7 @@ std::vector<double> swept_volumes(const Grid<Dim>& grid, const PointsByElement& 
 ///
 ///     d = -(m/a) n.[d sigma' - dp I].n,    m = 2|f|/3 (2D), 9|f|/20 (3D),
 ///
-/// The bubble carries the volume m d through the face (docs/theory/theory.md, "Motion of the
+/// The bubble carries the volume m d through the face (docs/theory/moving-soil.md, "Motion of the
 /// soil"). Faces of rigid soil have none.
 template <int Dim>
 class FaceBubbles {

@@ -35,7 +35,7 @@ struct SolidMotion {
   int worst_node = -1;
   /// Volume of soil with its pores that crosses each face along its normal, m3 (S_f). The outflow
   /// of an element is the growth of its soil, V_e (J - 1), plus the volumes of the bubbles of its
-  /// faces (docs/theory/theory.md). 0 between elements without soil.
+  /// faces (docs/theory/moving-soil.md). 0 between elements without soil.
   std::vector<double> face_volume;
   /// Volume of the solid itself that crosses each face, m3 (s_f), and the gain of each element by
   /// it, m3. Empty until the motion is committed.

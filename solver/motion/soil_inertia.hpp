@@ -1,8 +1,8 @@
 #pragma once
 
 /// Velocities of soil that has lost its equilibrium. Until the soil comes to rest, each step is an
-/// equilibrium with the forces of inertia (backward Euler; docs/theory/theory.md, "Inertia of the
-/// soil").
+/// equilibrium with the forces of inertia (backward Euler; docs/theory/moving-soil.md, "Inertia of
+/// the soil").
 
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/point_velocities.hpp"

@@ -27,7 +27,7 @@ namespace suffuse {
 
 /// Values of one field at one time, `components` per entity, entity by entity.
 struct Field {
-  std::string name;  ///< as in the symbol table of docs/theory/theory.md
+  std::string name;  ///< as in the symbol table of docs/theory/README.md
   std::string unit;
   int components = 1;
   std::vector<double> values;

@@ -19,7 +19,7 @@ namespace suffuse {
 ///
 /// in all soil that erodes with a length l, without flux of N or M through its borders; w is the
 /// share of the fines that is left. So q~ is a weighted mean of |q| over the fines around a place,
-/// and a channel without fines does not count (docs/theory/theory.md, "Channels with a width"). N
+/// and a channel without fines does not count (docs/theory/exchange.md, "Channels with a width"). N
 /// and M are linear in elements, with lumped masses.
 template <int Dim>
 class NonlocalFlux {

@@ -26,7 +26,7 @@ fi
 [ "$programs" = "$expected" ] || fail "bin/ has: $programs; expected: $expected"
 for file in $texts share/man/man1/suffuse-post.1 share/bash-completion/completions/suffuse-solver \
     share/suffuse/show_results.py share/suffuse/python/suffuse.py share/doc/suffuse/LICENSE \
-    share/doc/suffuse/examples/levee/flood.toml share/doc/suffuse/examples/paper/sp-consistent.toml; do
+    share/doc/suffuse/examples/levee/flood.toml share/doc/suffuse/workflows/paper/sp-consistent.toml; do
   [ -s "$prefix/$file" ] || fail "$file is missing"
 done
 # Installed files contain no path of the machine that built them, except in assertions of libraries.
@@ -52,7 +52,7 @@ fi
 code=0
 "$prefix/bin/suffuse-solver" weir.case.h5 --ranks 2 2> said || code=$?
 { [ "$code" -eq 4 ] && grep -q "no suffuse-solver-mpi in $prefix/bin,.*suffuse-mpi" said; } || fail "--ranks without suffuse-solver-mpi: $code, $(cat said)"
-for scene in "$doc"/examples/*/*.toml; do
+for scene in "$doc"/workflows/*/*.toml "$doc"/examples/*/*.toml; do
   "$prefix/bin/suffuse-mesher" "$scene" -o other.case.h5 > /dev/null || fail "$scene"
 done
 

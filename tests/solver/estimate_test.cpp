@@ -233,12 +233,12 @@ Case<2> case_of(const TemporaryFolder& folder, const std::string& scene, const s
 /// A trial of a tenth of the time does not reach the end of erosion or most breakpoints.
 TEST(Estimate, LooksAheadInScenesOfManyKinds) {
   const std::vector<std::pair<std::string, std::string>> scenes{
-      {"workflows/sweep/weir.toml", "0.25"},           // erosion below a weir
-      {"workflows/levee/flood.toml", "1.5"},           // breakpoints, seepage faces, retention
-      {"workflows/levee/dam.toml", "1.5"},             // as above, with long times of rest
-      {"workflows/laboratory/channel.toml", "25e-3"},  // a drive that grows with the pores
-      {"workflows/decades/weir.toml", "0.25"},         // a hundred years from rest
-      {"workflows/stress/kill-bank.toml", "0.5"},      // soil that moves
+      {"workflows/examples/weir/weir.toml", "0.25"},     // erosion below a weir
+      {"workflows/examples/levee/flood.toml", "1.5"},    // breakpoints, seepage faces, retention
+      {"workflows/examples/dam/dam.toml", "1.5"},        // as above, with long times of rest
+      {"workflows/laboratory/channel.toml", "25e-3"},    // a drive that grows with the pores
+      {"workflows/examples/decades/weir.toml", "0.25"},  // a hundred years from rest
+      {"workflows/stress/kill-bank.toml", "0.5"},        // soil that moves
   };
   for (const auto& [scene, size] : scenes) {
     SCOPED_TRACE(scene);

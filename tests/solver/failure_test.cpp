@@ -1,5 +1,5 @@
 /// How soil goes from equilibrium to inertia and back: each transition of the table in
-/// docs/theory/theory.md, "When soil fails".
+/// docs/theory/moving-soil.md, "When soil fails".
 
 #include "coupling/failure.hpp"
 

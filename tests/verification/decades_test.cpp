@@ -260,7 +260,7 @@ TEST(ImplicitTransport, SmearsAFrontInLongStepsButMakesNoExtremes) {
   }
 }
 
-/// The weir of the README for a hundred years: `workflows/decades/weir.toml`.
+/// A weir for a hundred years: `workflows/examples/decades/weir.toml`.
 struct Century {
   std::vector<double> porosity;  ///< mean gain, at 1, 10 and 100 years
   std::vector<double> eroded;    ///< kg
@@ -269,7 +269,7 @@ struct Century {
 
 Century century(double tolerance) {
   constexpr double year = 3.1557e7;
-  const std::string path = SUFFUSE_SOURCE_DIR "/workflows/decades/weir.toml";
+  const std::string path = SUFFUSE_SOURCE_DIR "/workflows/examples/decades/weir.toml";
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   Case<2> c;

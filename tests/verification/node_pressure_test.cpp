@@ -5,8 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <numbers>
 
@@ -14,6 +12,7 @@
 #include "mixed/mixed_flow.hpp"
 #include "seeding.hpp"
 #include "solver/flow_model.hpp"
+#include "test_paths.hpp"
 #include "verification/model_run.hpp"
 
 namespace suffuse {
@@ -21,56 +20,16 @@ namespace node_pressure_test {
 
 constexpr double pi = std::numbers::pi;
 
-// --- The weir of the README, with its water applied at once
-// ---------------------------------------
-
-const char* const weir_geometry = R"(
-Point(1) = {0, 0, 0};  Point(2) = {3, 0, 0};  Point(3) = {3, 1, 0};
-Point(4) = {2, 1, 0};  Point(5) = {1, 1, 0};  Point(6) = {0, 1, 0};
-Line(1) = {1, 2};  Line(2) = {2, 3};  Line(3) = {3, 4};
-Line(4) = {4, 5};  Line(5) = {5, 6};  Line(6) = {6, 1};
-Curve Loop(1) = {1, 2, 3, 4, 5, 6};
-Plane Surface(1) = {1};
-Physical Surface("foundation") = {1};
-Physical Curve("downstream") = {3};
-Physical Curve("upstream") = {5};
-)";
-
-const char* const weir_scene = R"(
-formulation = "single-point"
-geometry.file = "weir.geo"
-mesh.size = 0.1
-liquid = {density = 1000.0, bulk_modulus = 2.0e9, viscosity = 1.0e-3}
-[soil.foundation]
-porosity = 0.3
-skeleton_fraction = 0.6
-grain_density = 2700.0
-conductivity = 2.0e-2
-conductivity_law = "kozeny-carman"
-erosion = {law = "first-order", rate = 1.0e-2}
-[[boundary]]
-on = "upstream"
-pressure = 6.0e3
-concentration = 0.0
-[[boundary]]
-on = "downstream"
-pressure = 0.0
-[time]
-end = 40.0
-[output]
-every = 2.0
-)";
+// --- The weir of the examples, with its water applied at once ------------------------------------
 
 Case<2> weir() {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "node_pressure_test";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "weir.geo") << weir_geometry;
-  Case<2> c;
-  std::string scene = weir_scene;
+  std::string probes = "output.probe=[";
   for (int i = 1; i < 100; ++i) {
-    scene += "[[output.probe]]\nat = [" + std::to_string(0.01 * i) + ", 0.97]\n";
+    probes += "{at = [" + std::to_string(0.01 * i) + ", 0.97]}, ";
   }
-  c.document = parse_scene(scene, (folder / "weir.toml").string());
+  Case<2> c;
+  c.document = read_scene(std::string(SUFFUSE_SOURCE_DIR) + "/workflows/examples/weir/weir.toml",
+                          {"boundary[0].pressure=6.0e3", "time.end=40.0", probes + "]"});
   c.mesh = build_geometry_of<2>(c.document).mesh;
   c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
   return c;

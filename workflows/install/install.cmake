@@ -13,7 +13,7 @@ set(command_line ${Python3_EXECUTABLE} ${install_sources}/command_line.py)
 set(programs suffuse-mesher suffuse-solver suffuse-post)
 set(documents ${CMAKE_INSTALL_DOCDIR})
 
-# --- Texts made from the output of the programs and from the README ---
+# --- Texts made from the output of the programs ---
 file(MAKE_DIRECTORY ${install_texts})
 foreach(program IN LISTS programs)
   set(page ${install_texts}/${program}.1)
@@ -30,15 +30,7 @@ add_custom_command(OUTPUT ${completion}
   COMMAND ${command_line} complete ${install_sources}/completion.bash.in ${program_files} > ${completion}
   DEPENDS ${programs} ${install_sources}/completion.bash.in ${install_sources}/command_line.py
   COMMENT "Completion of command lines" VERBATIM)
-foreach(name weir.geo weir.toml)
-  set(example ${install_texts}/${name})
-  add_custom_command(OUTPUT ${example}
-    COMMAND awk -v name=${name} -f ${install_sources}/readme_file.awk ${PROJECT_SOURCE_DIR}/README.md > ${example}
-    DEPENDS ${PROJECT_SOURCE_DIR}/README.md ${install_sources}/readme_file.awk
-    COMMENT "Example ${name} of the README" VERBATIM)
-  list(APPEND weir_files ${example})
-endforeach()
-add_custom_target(suffuse_install_texts ALL DEPENDS ${manual_pages} ${completion} ${weir_files})
+add_custom_target(suffuse_install_texts ALL DEPENDS ${manual_pages} ${completion})
 
 # --- Programs ---
 install(TARGETS ${programs} RUNTIME COMPONENT programs)
@@ -61,13 +53,15 @@ install(FILES post/python/suffuse.py DESTINATION ${SUFFUSE_PYTHON_DIR} COMPONENT
 install(FILES workflows/paraview/show_results.py DESTINATION ${CMAKE_INSTALL_DATADIR}/suffuse COMPONENT programs)
 
 # --- Documents and examples; links between the documents hold ---
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${documents} COMPONENT programs)
-install(DIRECTORY docs DESTINATION ${documents} COMPONENT programs PATTERN man EXCLUDE)
-install(FILES ${weir_files} DESTINATION ${documents}/examples/weir COMPONENT programs)
-foreach(example paper levee)
-  install(DIRECTORY workflows/${example} DESTINATION ${documents}/examples COMPONENT programs
-          FILES_MATCHING PATTERN *.toml PATTERN *.geo)
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${documents} COMPONENT programs)
+install(DIRECTORY docs changelog DESTINATION ${documents} COMPONENT programs PATTERN man EXCLUDE)
+# Pages refer to the scenes as they do in the sources; examples/ leads there too.
+foreach(folder examples paper)
+  install(DIRECTORY workflows/${folder} DESTINATION ${documents}/workflows COMPONENT programs
+          FILES_MATCHING PATTERN *.toml PATTERN *.geo PATTERN *.md)
 endforeach()
+install(CODE "file(CREATE_LINK workflows/examples \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${documents}/examples\" SYMBOLIC)"
+        COMPONENT programs)
 
 # --- find_package(Suffuse): the reader of results ---
 foreach(library physics case results)

@@ -19,16 +19,16 @@ $(eval $(call plan_skips,sp-implicit-fine,sp-implicit,mesh.size=0.0125 $(plan_fi
 $(eval $(call plan_skips,dp-implicit-fine,dp-implicit,mesh.size=0.025 $(plan_fine)))
 
 # A flood and a falling reservoir, with retention; years and centuries; a plane section of the lens.
-$(eval $(call plan_scene,levee-flood,levee/flood.toml))
-$(eval $(call plan_scene,levee-dam,levee/dam.toml))
-$(eval $(call plan_scene,decades-weir,decades/weir.toml))
-$(eval $(call plan_scene,decades-levee,decades/levee.toml))
-$(eval $(call plan_scene,lens-section,lens/lens.toml,geometry.file="section.geo" gravity=[0.0$(comma)-9.81]))
+$(eval $(call plan_scene,levee-flood,examples/levee/flood.toml))
+$(eval $(call plan_scene,levee-dam,examples/dam/dam.toml))
+$(eval $(call plan_scene,decades-weir,examples/decades/weir.toml))
+$(eval $(call plan_scene,decades-levee,examples/decades/levee.toml))
+$(eval $(call plan_scene,lens-section,examples/lens/lens.toml,geometry.file="section.geo" gravity=[0.0$(comma)-9.81]))
 # A channel that erosion opens, a laboratory's specimen, a sheet pile, a weir.
 $(eval $(call plan_scene,channel,laboratory/channel.toml,mesh.size=10e-3))
-$(eval $(call plan_scene,specimen,laboratory/specimen.toml))
+$(eval $(call plan_scene,specimen,examples/permeameter/specimen.toml))
 $(eval $(call plan_scene,pile,pictures/pile.toml))
-$(eval $(call plan_scene,sweep-weir,sweep/weir.toml))
+$(eval $(call plan_scene,sweep-weir,examples/weir/weir.toml,output.snapshot_every=200.0))
 $(eval $(call plan_scene,day,stiffness/day.toml))
 # Soil that moves: a bank, soil with layers.
 $(eval $(call plan_scene,kill-bank,stress/kill-bank.toml))
@@ -37,4 +37,4 @@ $(eval $(call plan_scene,bedding,../tests/cases/bedding.toml))
 $(foreach case,residual-decades no-water-left negative-deposits gradient-drive jump-in-decades,\
   $(eval $(call plan_scene,$(case),../tests/cases/$(case).toml)))
 # Three dimensions.
-$(eval $(call plan_scene,lens,lens/lens.toml))
+$(eval $(call plan_scene,lens,examples/lens/lens.toml))

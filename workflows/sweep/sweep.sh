@@ -6,7 +6,7 @@
 set -eu -o pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . ./find_file.sh
-if [ -z "$SCENE$SWEEP" ]; then SCENE=sweep/weir.toml SWEEP=sweep/weir.csv; fi
+if [ -z "$SCENE$SWEEP" ]; then SCENE=examples/weir/weir.toml SWEEP=sweep/weir.csv; fi
 scene=$(find_file SCENE "$1")
 table=$(find_file SWEEP "$1")
 name=$(basename -- "$table")

@@ -29,8 +29,8 @@ cells() {
     $1 == row { for (k = 1; k <= n; ++k) printf "%s%s", $at[names[k]], k < n ? " " : "\n" }' "$out/convergence.csv"
 }
 
-cp "$workflows/sweep/weir.geo" .
-sed 's/^end .*/end = 20.0/' "$workflows/sweep/weir.toml" > "a weir.toml"
+cp "$workflows/examples/weir/weir.geo" .
+sed 's/^end .*/end = 20.0/' "$workflows/examples/weir/weir.toml" > "a weir.toml"
 cat >> "a weir.toml" <<'END'
 probe = [{at = [1.5, 0.5]}]
 END
@@ -88,18 +88,18 @@ refused 'tolerances out of bounds' "TOLERANCES: got '0.2'; expected numbers abov
   "a weir.toml" TOLERANCES=0.2,0.1,0.01
 refused 'an output twice' "OUTPUTS: got 'flux_out' twice; expected different names with commas between them" \
   "a weir.toml" OUTPUTS=flux_out,flux_out
-sed 's/^end .*/end = 30.0\nstep = 1.0/' "$workflows/sweep/weir.toml" > step.toml
+sed 's/^end .*/end = 30.0\nstep = 1.0/' "$workflows/examples/weir/weir.toml" > step.toml
 refused 'tolerances of a given step' \
   'TOLERANCES: got numbers, and a scene with time.step; expected a scene whose steps follow time.tolerance' \
   step.toml TOLERANCES=1e-2,1e-3,1e-4
-sed 's/^size .*/size = 0.1\nerror = 0.01/' "$workflows/sweep/weir.toml" > adapted.toml
+sed 's/^size .*/size = 0.1\nerror = 0.01/' "$workflows/examples/weir/weir.toml" > adapted.toml
 refused 'a scene whose sizes follow an error' "$PWD/adapted.toml: mesh.error: got 0.01; expected a scene without this key: with it the \
 sizes of elements do not follow mesh.size" adapted.toml
-sed 's/weir.geo/weir.msh/' "$workflows/sweep/weir.toml" > made.toml
+sed 's/weir.geo/weir.msh/' "$workflows/examples/weir/weir.toml" > made.toml
 refused 'a mesh that is made already' "$PWD/made.toml: geometry.file: got 'weir.msh', a mesh whose elements have their sizes; expected a \
 shape, or a .geo or .step file, whose elements follow mesh.size" made.toml
 sed -i 's/weir.geo/graded.geo/' "a weir.toml"
-sed 's/\(Point([0-9]*) = {[^}]*\)}/\1, 0.1}/g' "$workflows/sweep/weir.geo" > graded.geo
+sed 's/\(Point([0-9]*) = {[^}]*\)}/\1, 0.1}/g' "$workflows/examples/weir/weir.geo" > graded.geo
 refused 'a file with sizes of its own' "$PWD/a weir.toml: mesh.size: got 2208 elements with 0.4 m and 2208 with 0.2 m; expected elements \
 that become finer by 2, as mesh.size does" "a weir.toml" SIZES=0.4,0.2,0.1
 expect 'with what to do' 'Leave the fourth number of its points out' "$(grep -o 'Leave the fourth number of its points out' <<< "$said")"

@@ -15,7 +15,7 @@ cd "$workflows"
 fit() {
   local status=0 measured=$1 gradients=$2
   shift 2
-  /usr/bin/python3 laboratory/fit.py laboratory/specimen.toml --measured "$measured" --gradients "$gradients" \
+  /usr/bin/python3 laboratory/fit.py examples/permeameter/specimen.toml --measured "$measured" --gradients "$gradients" \
     --fit constant --programs "$programs" --out "$work/out" "$@" > "$work/log" 2>&1 || status=$?
   echo "$status $(sed "s|$work/||g" "$work/log" | tail -1)"
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Tests the Debian packages on a bare Debian 12, in a folder of its own: apt installs them, the
-# commands of the README are run, a case is run on two ranks with suffuse-mpi, and they are removed
+# commands of the first run are run, a case is run on two ranks with suffuse-mpi, and they are removed
 # without a trace; then lintian checks them, and a program is built with suffuse-dev.
 #   package.sh FOLDER     FOLDER has the packages; the base system and what apt downloads are kept there for the next time
 # Needs root and debootstrap. MIRROR=URL: where Debian is; LINTIAN= leaves lintian out.
@@ -38,7 +38,7 @@ apt-config dump Acquire::http > "$root/etc/apt/apt.conf.d/90-of-the-host"
 cp -L /etc/resolv.conf "$root/etc/resolv.conf"
 cp "$cache"/archives/*.deb "$root/var/cache/apt/archives/" 2> /dev/null || true
 mkdir "$root/srv/suffuse"
-cp "$folder"/suffuse*.deb "$source/README.md" "$root/srv/suffuse/"
+cp "$folder"/suffuse*.deb "$source/docs/use/first-run.md" "$root/srv/suffuse/"
 cp -r "$source/tests/install/consumer" "$source/tests/ranks/scenes" "$root/srv/suffuse/"
 
 # inside: runs bash commands from stdin in the new system.
@@ -64,9 +64,8 @@ echo "installed: $(dpkg -L suffuse | grep -c .) files of $(dpkg-query -Wf '${Ins
 mkdir run && cd run
 cp /usr/share/doc/suffuse/examples/weir/* .
 chown -R 1000 .
-# Every command of the README's tour, figures included.
-awk '/^## Ten minutes/ { inside = 1 } /^## More/ { exit } inside && (/^    suffuse-/ || more) { print substr($0, 5); more = /\\$/ }' \
-  ../README.md > commands.sh
+# Every command of the page "first run", figures included.
+awk '/^    suffuse-/ || more { print substr($0, 5); more = /\\$/ }' ../first-run.md > commands.sh
 [ "$(grep -c '^suffuse-' commands.sh)" -ge 15 ]
 # The commands run as an ordinary user: libraries keep caches and settings in HOME.
 HOME=$PWD setpriv --reuid 1000 --regid 1000 --clear-groups bash -eux commands.sh > output 2>&1 || { cat output; exit 1; }
@@ -74,7 +73,7 @@ for picture in porosity.png masses.svg curves.png model.png head.png flownet.png
   [ "$(stat -c %s $picture)" -gt 5000 ] || { echo "$picture is empty"; exit 1; }
 done
 grep -q 'status.*done' weir.results/run.json
-echo "the README's tour: $(grep -c '^suffuse-' commands.sh) commands, $(ls *.png *.svg | wc -l) pictures"
+echo "the first run: $(grep -c '^suffuse-' commands.sh) commands, $(ls *.png *.svg | wc -l) pictures"
 cd ..
 for program in mesher solver post; do
   man suffuse-$program > page 2> warnings

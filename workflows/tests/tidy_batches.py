@@ -15,7 +15,7 @@ includes = {
 }
 expected = [
     ('nothing', [], []),
-    ('a test and a document', ['tests/solver/grid_test.cpp', 'docs/theory/theory.md'], []),
+    ('a test and a document', ['tests/solver/grid_test.cpp', 'docs/theory/README.md'], []),
     ('a source file', ['solver/grid/grid.cpp'], ['grid.cxx']),
     ('two of two batches', ['solver/grid/grid.cpp', 'post/drawing/chart.cpp'], ['grid.cxx', 'post.cxx']),
     ('a header that one batch includes', ['solver/flow/flow.hpp'], ['flow.cxx']),

@@ -3,7 +3,7 @@
 /// Drives of erosion: the erosion rate grows with the drive above its threshold. Each drive is one
 /// file of this folder; docs/develop/contributing.md says how to add one. In unsaturated soil only
 /// pores that carry flow erode: drives use k_r i, the gradient that would drive the same flux
-/// through the saturated soil (docs/theory/theory.md, "Erosion").
+/// through the saturated soil (docs/theory/exchange.md, "Erosion").
 
 #include <span>
 #include <string_view>
