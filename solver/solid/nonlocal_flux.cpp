@@ -8,8 +8,8 @@ namespace {
 
 /// Least weight, for soil that had no fines from the start.
 constexpr double least_weight = 1e-6;
-/// Mean weight below which a place is without fines: the flux there does not matter, and is that of
-/// the place.
+/// Mean weight below which a node is without fines around it: the flux there does not matter, and
+/// is that of the point that asks.
 constexpr double without_fines = 1e-3;
 /// Residual of the linear systems over their right-hand side.
 constexpr double tolerance = 1e-12;
@@ -79,15 +79,7 @@ auto NonlocalFlux<Dim>::smoothed(const Values& source) -> Values {
   const Values guess = Values::Zero(count_);
   const Values allowed = Values::Constant(count_, tolerance * most);
   const SymmetricSystem system{matrix_, at_nodes, guess, allowed};
-  const Values found = shared_ ? shared_->solve(system) : solver_.solve(system);
-  // Not the product with the transposed matrix, for which Eigen starts threads of its own.
-  Values at_points = Values::Zero(source.size());
-  for (Eigen::Index p = 0; p < at_points.size(); ++p) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(shape_, p); it; ++it) {
-      at_points[p] += it.value() * found[it.row()];
-    }
-  }
-  return at_points;
+  return shared_ ? shared_->solve(system) : solver_.solve(system);
 }
 
 template <int Dim>
@@ -105,14 +97,18 @@ template <int Dim>
 void NonlocalFlux<Dim>::find(const std::vector<double>& fines_left, PointFlows& flows) {
   find_weight(fines_left);
   const Values flux = Eigen::Map<const Values>(flows.flux.data(), weight_.size());
-  const Values weighted = smoothed(weight_.cwiseProduct(flux));
+  // Means undershoot zero where angles are obtuse.
+  const Values mean =
+      smoothed(weight_.cwiseProduct(flux)).cwiseQuotient(mean_weight_).cwiseMax(0.0);
   flows.eroding_flux = flows.flux;
   for (int p = 0; p < soils_.points().size(); ++p) {
     if (length(soils_.points().element[p]) == 0.0) continue;
     if (!flows.flux_change.empty()) flows.flux_change[p] = 0.0;
-    if (!(mean_weight_[p] > without_fines)) continue;
-    // Means undershoot zero where angles are obtuse.
-    flows.eroding_flux[p] = std::max(weighted[p] / mean_weight_[p], 0.0);
+    double sum = 0.0;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(shape_, p); it; ++it) {
+      sum += it.value() * (mean_weight_[it.row()] > without_fines ? mean[it.row()] : flux[p]);
+    }
+    flows.eroding_flux[p] = sum;
   }
 }
 

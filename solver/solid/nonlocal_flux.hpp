@@ -41,7 +41,7 @@ class NonlocalFlux {
   void assemble();
   /// Finds M, unless it is that of the last call.
   void find_weight(const std::vector<double>& fines_left);
-  /// The solution S at the points of S - div(l^2 grad S) = `source`, which is given at them.
+  /// The solution S per unknown of S - div(l^2 grad S) = `source`, which is given at the points.
   [[nodiscard]] Values smoothed(const Values& source);
   [[nodiscard]] double length(int element) const {
     return soils_.erosion_of_element(element).length;
@@ -57,7 +57,7 @@ class NonlocalFlux {
   Values volume_;                   ///< per solid point, m3
   std::vector<double> fines_left_;  ///< those of the two below
   Values weight_;                   ///< w per solid point
-  Values mean_weight_;              ///< M per solid point
+  Values mean_weight_;              ///< M per unknown
   LaggedPreconditioner solver_;
   std::optional<SharedSystem> shared_;  ///< on several ranks, in the place of `solver_`
 };
