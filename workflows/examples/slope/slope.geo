@@ -1,0 +1,20 @@
+// A slope of 2:1, 10 m high, on 4 m of ground. Lengths in metres.
+Point(1) = {0, -4, 0};
+Point(2) = {40, -4, 0};
+Point(3) = {40, 0, 0};
+Point(4) = {32, 0, 0};
+Point(5) = {12, 10, 0};
+Point(6) = {0, 10, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Curve Loop(1) = {1 ... 6};
+Plane Surface(1) = {1};
+Physical Surface("sand") = {1};
+Physical Curve("base") = {1};
+Physical Curve("front") = {2};
+Physical Curve("slope") = {3, 4};
+Physical Curve("back") = {6};
