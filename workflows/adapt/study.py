@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """Meshes of ten sections of steady flow: adapted, uniform, graded by hand.
 
-    study.py PROGRAMS OUT [SECTION]...
+    study.py PROGRAMS OUT [SECTION]...            writes OUT/meshes.csv, a row for each mesh, and OUT/table.md
+    study.py --document PROGRAMS OUT DOCS         puts the table between the marks of the document, and draws its pictures
 
-Writes OUT/meshes.csv, a row for each mesh, and OUT/table.md. Exits with 3 if intervals of one section
-do not meet, if mesh.error is not met, or if the gap falls too slowly.
+Exits with 3 if intervals of one section do not meet, if mesh.error is not met, or if the gap falls too slowly.
 """
 
-import csv
 import math
 import os
 import re
@@ -18,6 +17,9 @@ import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(1, str(HERE.parent))
+import svg
+from common import call, csv_text, markdown, put_between, read_rows, run_json
 ERRORS = (0.01, 0.001)
 HALVINGS = 4
 GRADING = 1 / 16  # size at corners, feet and ends over that elsewhere
@@ -111,7 +113,7 @@ class Study:
         self.make_keeping_programs()
 
     def make_keeping_programs(self):
-        """Programs whose solver keeps each case: adapt.sh replaces it, and its table has five digits."""
+        """Programs whose solver keeps each case: adapt.py replaces it, and its table has five digits."""
         self.keeping = self.out / "programs"
         self.keeping.mkdir(exist_ok=True)
         for name, text in (
@@ -127,21 +129,18 @@ class Study:
         """Interval of the discharge, number of elements, wall time of the steady solution."""
         results = case.with_name("run.results")
         seconds, _ = run([self.programs / "suffuse-solver", case, "-o", results, "--force", "--quiet"])
-        with open(results / "history.csv", encoding="utf-8") as file:
-            row = list(csv.DictReader(file))[-1]
+        row = read_rows(results / "history.csv")[-1]
         interval = float(row["flux_out_low"]), float(row["flux_out_high"])
         if interval == (0.0, 0.0):
             interval = self.sum_of_outflows(results)
         elif float(row["flux_out_estimate"]) != 0.0:
             sys.exit(f"study.py: {case}: an estimate, no bound")
-        elements = re.search(r'"elements": (\d+)', (results / "run.json").read_text(encoding="utf-8"))
-        return interval, int(elements.group(1)), seconds
+        return interval, int(run_json(results)["elements"]), seconds
 
     @staticmethod
     def sum_of_outflows(results):
         """Where a boundary lets liquid in and out history.csv has no interval: the boundaries have."""
-        with open(results / "boundaries.csv", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = read_rows(results / "boundaries.csv")
         rows = [r for r in rows if r["t"] == rows[-1]["t"] and float(r["discharge"]) > 0.0]
         return sum(float(r["discharge_low"]) for r in rows), sum(float(r["discharge_high"]) for r in rows)
 
@@ -150,7 +149,7 @@ class Study:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         stem = folder / section.name
-        seconds, done = run(["env", f"KEEP={folder}/mesh", HERE.parent / "adapt.sh", self.keeping,
+        seconds, done = run(["env", f"KEEP={folder}/mesh", HERE.parent / "adapt.py", self.keeping,
                              HERE / f"{section.name}.toml", stem, "--set", f"mesh.error={error}"])
         (folder / "log").write_text(done.stdout + done.stderr, encoding="utf-8")
         cases = sorted(folder.glob("mesh-*.case.h5"), key=lambda path: int(path.name[5:].split(".")[0]))
@@ -194,14 +193,11 @@ class Study:
         print(f"{section.name}, {kind}: {steps}", flush=True)
 
     def write_meshes(self):
-        with open(self.out / "meshes.csv", "w", encoding="utf-8", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow(("section", "kind", "mesh", "elements", "flux_out_low", "flux_out_high", "error", "exact",
-                            "solver_seconds", "loop_seconds"))
-            for m in self.meshes:
-                table.writerow((m.section.name, m.kind, m.number, m.elements, repr(m.low), repr(m.high), f"{m.error:.6g}",
-                                "" if m.section.exact is None else repr(m.section.exact), f"{m.seconds:.3f}",
-                                "" if m.loop_seconds is None else f"{m.loop_seconds:.3f}"))
+        header = ["section", "kind", "mesh", "elements", "flux_out_low", "flux_out_high", "error", "exact", "solver_seconds", "loop_seconds"]
+        rows = [[m.section.name, m.kind, m.number, m.elements, repr(m.low), repr(m.high), f"{m.error:.6g}",
+                 "" if m.section.exact is None else repr(m.section.exact), f"{m.seconds:.3f}",
+                 "" if m.loop_seconds is None else f"{m.loop_seconds:.3f}"] for m in self.meshes]
+        (self.out / "meshes.csv").write_text(csv_text([header, *rows]), encoding="utf-8")
 
 
 def slope(meshes):
@@ -282,10 +278,12 @@ def check(study, section, verdicts):
         print(f"{'ok' if few else 'more than a tenth'}: {name}: {last.elements} elements, {last.elements / uniform:.2g} of the uniform ones")
 
 
-def markdown(study, sections):
-    lines = ["| section | error | meshes | elements | known to | s of the loop | s of the last solution | uniform | graded "
-             "| share of uniform | slope |",
-             "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"]
+HEADER = ("section", "error", "meshes", "elements", "known to", "s of the loop", "s of the last solution", "uniform", "graded",
+          "share of uniform", "slope")
+
+
+def report(study, sections):
+    rows = []
     for section in sections:
         for error in ERRORS:
             own = study.of(section, f"adapted to {error}")
@@ -296,16 +294,11 @@ def markdown(study, sections):
             uniform, graded = (Family(study.of(section, kind), compared) for kind in ("uniform", "graded"))
             fall = slope(own[1:])
             title = section.words + (", 3D" if section.dimension == 3 else "") if error == ERRORS[0] else ""
-            lines.append(
-                f"| {title} | {100 * error:g} % | {len(own)} | {count(last.elements)} | "
-                f"{100 * last.error:.2g} %{'' if met else ', **not met**'} | {seconds_text(last.loop_seconds)} | "
-                f"{seconds_text(last.seconds)} | {uniform.words} | {graded.words} | "
-                f"{last.elements / uniform.elements:.2g} | {'' if fall is None or error == ERRORS[0] else f'{fall:.2f}'.replace('-', '−')} |")
-    lines.append("")
-    for section in sections:
-        if section.exact is not None:
-            lines.append(exact_sentence(study, section))
-    return "\n".join(lines) + "\n"
+            rows.append([title, f"{100 * error:g} %", len(own), count(last.elements), f"{100 * last.error:.2g} %{'' if met else ', **not met**'}",
+                         seconds_text(last.loop_seconds), seconds_text(last.seconds), uniform.words, graded.words,
+                         f"{last.elements / uniform.elements:.2g}", "" if fall is None or error == ERRORS[0] else f"{fall:.2f}".replace("-", "−")])
+    sentences = [exact_sentence(study, section) for section in sections if section.exact is not None]
+    return "\n".join([markdown(HEADER, rows), *sentences]) + "\n"
 
 
 def exact_sentence(study, section):
@@ -321,9 +314,43 @@ def exact_sentence(study, section):
             f"{100 * largest:.0f} % of half of the interval.")
 
 
+CURVES = {"adapted to 0.001": ("adapted", ("#0062bd", "none", "circle")), "graded": ("graded by hand", ("#009150", "2 4", "diamond")),
+          "uniform": ("uniform", ("#000000", "8 5", "square"))}
+
+
+def chart(rows, sections):
+    """Error against elements of adapted, graded and uniform meshes, one chart for each section."""
+    points = {}
+    for row in rows:
+        points.setdefault((row["section"], row["kind"]), []).append((float(row["elements"]), float(row["error"])))
+    shown = [point for section in sections for kind in CURVES for point in points[section, kind]]
+    x, y = (svg.decades([point[k] for point in shown]) for k in (0, 1))
+    parts = []
+    for number, section in enumerate(sections):
+        panel = svg.Panel(x, y, "elements (-)", "" if number else "half of the interval over its middle (-)", title=section,
+                          box=(82 + number * 338, 42, 290, 300), logarithmic=True)
+        parts += panel.axes()
+        for kind, (_, style) in CURVES.items():
+            parts += panel.curve(points[section, kind], style)
+    parts += panel.legend(CURVES.values())
+    return svg.document(f"Error of the discharge against the number of elements: {', '.join(sections)}", parts, panel, 238)
+
+
+def document(programs, out, docs):
+    programs, out, docs = Path(programs), Path(out), Path(docs)
+    sections = ("sheet-pile", "pile-over-clay", "disc")
+    (docs / "images/adapted-error.svg").write_text(chart(read_rows(out / "meshes.csv"), sections), encoding="utf-8")
+    run = out / "pile-over-clay/adapted-0.01/pile-over-clay"
+    call(programs / "suffuse-solver", f"{run}.case.h5", "-o", f"{run}.results", "--force", "--quiet")
+    call(programs / "suffuse-post", "render", f"{run}.results", "--field", "error", "--log", "-o", docs / "images/adapted-mesh.png")
+    put_between("adapted", docs / "evidence/accuracy.md", "\n" + (out / "table.md").read_text(encoding="utf-8") + "\n")
+
+
 def main():
     if len(sys.argv) < 3:
         sys.exit("usage: study.py PROGRAMS OUT [SECTION]...")
+    if sys.argv[1] == "--document":
+        return document(*sys.argv[2:])
     study = Study(sys.argv[1], sys.argv[2])
     sections = [s for s in SECTIONS if len(sys.argv) == 3 or s.name in sys.argv[3:]]
     for section in sections:
@@ -332,7 +359,7 @@ def main():
         study.halve(section, "uniform", 1.0)
         study.halve(section, "graded", GRADING)
         study.write_meshes()
-    (study.out / "table.md").write_text(markdown(study, sections), encoding="utf-8")
+    (study.out / "table.md").write_text(report(study, sections), encoding="utf-8")
     verdicts = Verdicts()
     for section in sections:
         check(study, section, verdicts)

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-from sweep import csv_text
+from common import csv_text
 
 COPIED = ("run.json", "mesh.hdf.series", "solid.hdf.series", "liquid.hdf.series", "ledger.csv")
 # Half a diamond, as a share of an axis.

@@ -1,24 +1,20 @@
 #!/usr/bin/python3
-"""How probable is failure at a level? `make -C workflows fragility` calls this, and sweep.sh makes the runs.
+"""How probable is failure at a level? `make -C workflows fragility` calls this.
 
-    fragility.py prepare SCENE FOLDER      writes FOLDER/table.csv, the sweep's table: every draw at every level; prints of
-                                           which states the factor of safety is
-    fragility.py conclude SCENE FOLDER     writes fragility.csv, draws.csv, report.md, fragility.svg
-
-LEVELS, SWEEP, BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1
+Writes table.csv, the sweep's table: every draw at every level, fragility.csv, draws.csv, report.md and fragility.svg. LEVELS, SWEEP, BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1
 if runs have no answer.
 """
 
 import os
 import sys
 
-from levels import (InputError, call, named_failures, named_warnings, outcomes, problem, rounded, rows_of_sweep, said_beside,
+from levels import (InputError, call, csv_text, named_failures, named_warnings, outcomes, problem, rounded, rows_of_sweep, said_beside,
                     write_changed, write_table)
-from chart import CURVES, Panel, document
-from assessment import EROSION, SLOPE, Outcome, cell, in_order, spoken
+from assessment import EROSION, SLOPE, Outcome, in_order, spoken
 from bounds import SHARE, bounds
+from common import cell
 from runs import MOST_RUNS, read_runs
-from sweep import csv_text
+from svg import CURVES, Panel, document
 
 ANY = "any of them"
 # Erosion beyond a threshold is no breach.
@@ -68,7 +64,6 @@ def rows_of(study):
 
 def prepare(study, folder):
     write_table(study, folder, rows_of(study)[1])
-    print(study.states)
 
 
 def groups_of(mechanisms):
@@ -119,7 +114,7 @@ def draw_chart(path, table, mechanisms, levels):
         parts += panel.curve([point[:2] for point in points], style)
     parts += panel.legend([(spoken(mechanism), styles[rows]) for mechanism, rows in numbers.items()],
                           ["Mechanisms with the same numbers share a curve."] if len(styles) < len(numbers) else [])
-    write_changed(path, document("Probability of failure of each mechanism against the level", parts))
+    write_changed(path, document("Probability of failure of each mechanism against the level", parts, panel))
 
 
 def conclude(study, folder):
@@ -162,9 +157,5 @@ def conclude(study, folder):
     return 1 if silent else 0
 
 
-def main():
-    call("fragility.py", prepare, conclude)
-
-
 if __name__ == "__main__":
-    main()
+    call("fragility", prepare, conclude)

@@ -14,11 +14,15 @@
 #     unbalanced  a residual of the ledger is above TOLERANCE
 #
 # Then the exit code is 0, whatever the word. Otherwise it is that of the program that was stopped
-# or could not use a file, and the next call goes on. PROGRESS=1 shows the messages of the programs
-# instead of keeping them in STEM.log.
+# or could not use a file, and the next call goes on.
+#
+# PROGRESS=1 is for a scene of one's own: it shows the messages of the programs instead of keeping them in
+# STEM.log. There is a status then only if the run is done; the exit code is 2 if it was refused, and 3 if it
+# failed or is unbalanced.
 set -u
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 programs=$1 stem=$2 tolerance=$3
+case $programs in /*) ;; *) programs=$PWD/$programs ;; esac
 name=${stem##*/}
 cd "${stem%/*}" || exit 4
 # The inputs of the case, to which the results belong.
@@ -45,6 +49,11 @@ show_messages() { [ ! -s "$messages" ] || cat "$messages"; }
 
 # end WORD: writes the status, with the messages of the last program.
 end() {
+  if [ -n "${PROGRESS:-}" ] && [ "$1" != done ]; then
+    rm -f "$name.status"
+    [ "$1" = refused ] && exit 2
+    exit 3
+  fi
   { echo "$1"; show_messages; } > "$name.status.new" && mv "$name.status.new" "$name.status"
   echo "$name $1" >&3
   exit 0
@@ -82,8 +91,8 @@ if ! { [ -e "$name.case.h5" ] && [ -e "$started" ] && cmp -s "$name.inputs" "$st
   # Until the case is whole, an earlier one fits no inputs.
   rm -f "$started"
   case $(grep '^adapt' "$name.inputs") in
-    adapt) step "$here/../adapt.sh" failed "$programs" "$scene" "$name" "${changes[@]}" ;;
-    adapt*) step "$here/../adapt.sh" failed --by-default "$programs" "$scene" "$name" "${changes[@]}" ;;
+    adapt) step "$here/../adapt.py" failed "$programs" "$scene" "$name" "${changes[@]}" ;;
+    adapt*) step "$here/../adapt.py" failed --by-default "$programs" "$scene" "$name" "${changes[@]}" ;;
     *) step suffuse-mesher refused "$scene" "${changes[@]}" -o "$name.case.h5" ;;
   esac
   [ ! -e "$name.results" ] || rm -rf "$name.results" "$name.ledger.csv"

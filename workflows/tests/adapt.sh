@@ -79,7 +79,7 @@ echo 'mesh.error = 0.01 is not met: mesh again with suffuse-mesher --sizes stub.
 END
 chmod +x stub/*
 code=0
-"$workflows/adapt.sh" stub stub.toml stub > stub.log 2>&1 || code=$?
+"$workflows/adapt.py" stub stub.toml stub > stub.log 2>&1 || code=$?
 expect 'the loop ends where more elements hardly help' \
   '3 2 mesh.error is not met, and more elements hardly help: the case has the last mesh' \
   "$code $(wc -l < meshes) $(tail -1 stub.log)"

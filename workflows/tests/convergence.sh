@@ -79,7 +79,8 @@ expect 'and the paragraph says so' 'The differences between them do not fall as 
 # refused WHAT MESSAGE SCENE VARIABLE...: also sets `said`.
 refused() {
   code=0
-  said=$(env "${@:4}" /usr/bin/python3 "$workflows/convergence/convergence.py" prepare "$3" "$work/refused" --programs "$programs" 2>&1) || code=$?
+  said=$(env SCENE="$3" OUT_FOLDER="$work/refused" PROGRAMS="$programs" MAKE=false CALLED_FROM="$PWD" "${@:4}" \
+    /usr/bin/python3 "$workflows/convergence/convergence.py" 2>&1) || code=$?
   expect "$1" "2 convergence.py: $2" "$code $(head -1 <<< "$said")"
 }
 refused 'sizes that are no numbers' "SIZES: got 'x'; expected numbers above 0 with commas between them" "a weir.toml" SIZES=0.2,x

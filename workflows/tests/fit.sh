@@ -17,8 +17,8 @@ out="$work/o ut/fit/test"
 # fit VARIABLE...: sets `code` to the exit code and writes the output to log. Without make's Makefile, which takes seconds to read.
 fit() {
   code=0
-  env SCENE="a column.toml" OUT_FOLDER="$work/o ut" NAME=test MEASURED= KEYS= AGAINST= PROGRAMS="$programs" PYTHON=/usr/bin/python3 MAKE=make LAUNCH= \
-    TOLERANCE=1e-12 "$@" "$workflows/fit/fit.sh" "$PWD" > "$work/log" 2>&1 || code=$?
+  env SCENE="a column.toml" OUT_FOLDER="$work/o ut" NAME=test PROGRAMS="$programs" MAKE=make TOLERANCE=1e-12 CALLED_FROM="$PWD" "$@" \
+    /usr/bin/python3 "$workflows/fit/fit.py" > "$work/log" 2>&1 || code=$?
 }
 said() { grep -o -- "$1" "$work/log" | head -1; }
 statuses() { (cd "$out" && find . -name '*.status' -printf '%P %T@\n' | sort); }
