@@ -7,13 +7,15 @@ Looks at the steady flow at the start of the scene. With --over-run it makes the
 STEM.results/ is that on the last mesh. --by-default is for a scene without mesh.error: where the mesher says that it has chosen
 mesh.size, mesh.error is 0.01, and what cannot be bounded or met stays as it is.
 
-Makes STEM.case.h5, and STEM.adapt.csv with a row for each mesh. Exit codes are those of the programs; 3 also if mesh.max_elements is
+Makes STEM.case.h5, and STEM.adapt.csv with a row for each mesh. With KEEP_MESHES=1 in the environment every case stays, as
+STEM-NUMBER.case.h5. Exit codes are those of the programs; 3 also if mesh.max_elements is
 not enough, or more elements hardly help: an estimate may hold more than the error of the mesh.
 """
 
 import atexit
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -62,6 +64,8 @@ def adapt():
     with open(f"{stem}.adapt.csv", "w", encoding="utf-8") as table:
         print("elements,flux_out,flux_out_low,flux_out_high", file=table)
         for count in range(1, MOST_MESHES + 1):
+            if os.environ.get("KEEP_MESHES"):
+                shutil.copy(f"{stem}.case.h5", f"{stem}-{count}.case.h5")
             measured = measure()
             if measured.returncode:
                 return measured.returncode, measured.stderr.strip("\n"), said

@@ -10,6 +10,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import time
 import tomllib
 
 WORKFLOWS = pathlib.Path(__file__).resolve().parent
@@ -90,6 +91,13 @@ def call(*command, ok=(0,), **options):
     return ended
 
 
+def timed(*command, **options):
+    """Wall time of a program, and what `call` returns."""
+    begin = time.perf_counter()
+    ended = call(*command, **options)
+    return time.perf_counter() - begin, ended
+
+
 def set_options(changes):
     """KEY=VALUE as options of the mesher."""
     return [part for change in changes for part in ("--set", change)]
@@ -107,6 +115,19 @@ def passes(run, pattern=""):
 
 def pass_seconds(run, pattern=""):
     return f"{sum(float(found['seconds']) for found in passes(run, pattern)):.6g}"
+
+
+def draw_curves(stem, programs, *arguments):
+    """`suffuse-post figure curves` as STEM.png and STEM.svg. Returns what is said where it fails."""
+    for suffix in ("png", "svg"):
+        ended = subprocess.run([programs / "suffuse-post", "figure", "curves", *arguments, "-o", f"{stem}.{suffix}"], capture_output=True, text=True)
+        if ended.returncode:
+            return ended.stderr.strip()
+    return ""
+
+
+def file_name(text):
+    return re.sub(r"[^\w.-]+", "-", text).strip("-")
 
 
 UNITS = {"s": 1, "min": 60, "h": 3600, "kB": 1e3, "MB": 1e6, "GB": 1e9}

@@ -12,7 +12,6 @@
 import collections
 import math
 import pathlib
-import re
 import shutil
 import sys
 

@@ -10,7 +10,6 @@ import math
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -19,7 +18,7 @@ from scipy.special import chdtrc
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep"), str(workflows / "convergence")]
-from common import InputError, NotDone, cell, csv_text, end_with, find_file, folder_of, programs_of, run_json, write_changed
+from common import InputError, NotDone, cell, csv_text, draw_curves, end_with, file_name, find_file, folder_of, programs_of, run_json, write_changed
 from estimator import NEAR_BOUND, POOR, NoRun, derivatives, search, uncertainty
 from keys import is_number, read_keys
 from measured import check_outputs, computed, read_measured
@@ -144,14 +143,10 @@ def draw(folder, fit, results, programs):
             points = pathlib.Path(scratch) / "measured.csv"
             rows = [[f"{t:.17g}", f"{value:.17g}"] for t, value in zip(fit.measured.t[at], fit.measured.value[at])]
             points.write_text(csv_text([["t", output.rpartition(".")[2]], *rows]), encoding="utf-8")
-            stem = re.sub(r"[^\w.-]+", "-", output).strip("-")
-            for suffix in ("png", "svg"):
-                command = [programs / "suffuse-post", "figure", "curves", column_of(output), *(f"{scratch}/{label}.results" for label in results),
-                           "--measured", points, "--time-unit", unit, "-o", folder / f"{stem}.{suffix}"]
-                ended = subprocess.run(command, capture_output=True, text=True)
-                if ended.returncode:
-                    print(f"fit.py: no chart of {output}: {ended.stderr.strip()}", file=sys.stderr)
-                    break
+            said = draw_curves(folder / file_name(output), programs, column_of(output), *(f"{scratch}/{label}.results" for label in results),
+                               "--measured", points, "--time-unit", unit)
+            if said:
+                print(f"fit.py: no chart of {output}: {said}", file=sys.stderr)
 
 
 # --- Report ------------------------------------------------------------------------------------------------

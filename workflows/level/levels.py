@@ -5,7 +5,6 @@ A constant head is replaced by the level. A head that changes in time is stretch
 value is the level: h(t) becomes h(0) + (h(t) - h(0)) (level - h(0)) / (max h - h(0)).
 """
 
-import math
 import os
 import pathlib
 import re

@@ -16,11 +16,10 @@ import pathlib
 import shutil
 import statistics
 import sys
-import time
 
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(here.parent))
-from common import call, markdown, median, pass_seconds, read_rows, run_json, set_options
+from common import call, markdown, median, pass_seconds, read_rows, run_json, set_options, timed
 
 SMALL = 4.0
 STAGES = ("mesher", "ledger", "picture", "solver")
@@ -45,19 +44,13 @@ def changes_of(mode, elements):
     return [f"name={mode}", f"mesh.size={size:.17g}", f"time={{{how},step={step},end={end}}}", f"output.every={end}", *changes]
 
 
-def timed(*command):
-    begin = time.perf_counter()
-    call(*command)
-    return time.perf_counter() - begin
-
-
 def once(programs, stem, changes, threads):
     """Seconds of each stage and pass in one run through the pipeline."""
     case, results = f"{stem}.case.h5", f"{stem}.results"
-    mesher = timed(programs / "suffuse-mesher", here / "column.toml", *set_options(changes), "-o", case)
-    solver = timed(programs / "suffuse-solver", case, "-o", results, "--force", "--threads", threads, "--quiet")
-    ledger = timed(programs / "suffuse-post", "ledger", results)
-    picture = timed(programs / "suffuse-post", "render", results, "--field", "porosity", "-o", f"{stem}.png")
+    mesher, _ = timed(programs / "suffuse-mesher", here / "column.toml", *set_options(changes), "-o", case)
+    solver, _ = timed(programs / "suffuse-solver", case, "-o", results, "--force", "--threads", threads, "--quiet")
+    ledger, _ = timed(programs / "suffuse-post", "ledger", results)
+    picture, _ = timed(programs / "suffuse-post", "render", results, "--field", "porosity", "-o", f"{stem}.png")
     run = run_json(results)
     return [*(f"{seconds:.4f}" for seconds in (mesher, ledger, picture, solver)), *(pass_seconds(run, name) for name in PASSES.values())]
 
@@ -106,7 +99,7 @@ def report(*files):
         for mode in modes:
             found = [(runs.get((mode, power, 1)), runs.get((mode, power, 2))) for power in powers]
             lines.append([mode, *(cell(*pair) if pair[0] else "" for pair in found)])
-            lines[-1] += [exponent([one for one, _ in found if one], cost)] * bool(cost)
+            lines[-1] += [exponent([one for one, _ in found if one], cost)] if cost else []
         print(markdown(["mode", *(f"10<sup>{power}</sup>" for power in powers), *["exponent"] * bool(cost)], lines))
 
     cost_of = lambda name: lambda one, two: f"{1e9 * one[name] / (one['steps'] * points_of(one)):.1f}"

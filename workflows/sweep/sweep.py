@@ -10,14 +10,13 @@ DEEPER leave soil out. Exit codes: 2 for wrong input; 1 if a run did not end wel
 import concurrent.futures
 import os
 import pathlib
-import re
 import subprocess
 import sys
 
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(here.parent))
 from assessment import columns_of, is_assessed, reduction_options
-from common import InputError, csv_text, end_with, find_file, folder_of, problem, programs_of, read_csv, read_scene, run_json, write_changed
+from common import InputError, csv_text, end_with, file_name, find_file, folder_of, problem, programs_of, read_csv, read_scene, run_json, write_changed
 from inputs import content, inputs_of
 from runs import read_runs
 
@@ -142,7 +141,7 @@ def figures(folder, keys, rows):
     found = {"over-time": ["--over-time", "fines_out"], "distribution": ["--y", quantity]}
     for key in keys:
         if len(numbers(done, key)) > 1:
-            found["over-" + re.sub(r"[^\w.-]+", "-", key).strip("-")] = ["--x", key, "--y", quantity]
+            found[f"over-{file_name(key)}"] = ["--x", key, "--y", quantity]
     return found
 
 

@@ -3,20 +3,17 @@
 # arguments go to make (BIN=FOLDER).
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-make_arguments=("$@")
-. "$workflows/tests/expect.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
+work=$scratch
 
 "$workflows/tests/accuracy.py" || failures=$((failures + 1))
 
 before=$(cat "$workflows/../docs/evidence/accuracy.md" "$workflows"/../docs/images/*.png | cksum)
 status=0
-make -C "$workflows" "${make_arguments[@]}" accuracy SHORT=1 OUT="$work/out" > "$work/make.log" 2>&1 || status=$?
-[ $status -eq 0 ] || cat "$work/make.log"
+make -C "$workflows" "${make_arguments[@]}" accuracy SHORT=1 OUT="$work/out" > "$log" 2>&1 || status=$?
+[ $status -eq 0 ] || cat "$log"
 expect 'accuracy SHORT=1' 0 $status
-grep '^\(ok\|WRONG\): ' "$work/make.log" || true
+grep '^\(ok\|WRONG\): ' "$log" || true
 expect 'it leaves the document as it is' "$before" \
   "$(cat "$workflows/../docs/evidence/accuracy.md" "$workflows"/../docs/images/*.png | cksum)"
 
@@ -31,4 +28,4 @@ expect 'nor a scheme without runs' wrong "$(judge "$work/broken.csv")"
 awk -F, -v OFS=, '$2 == "sp-implicit" { $10 *= 1000 } { print }' "$out/accuracy.csv" > "$work/broken.csv"
 expect 'nor an implicit scheme that is slow' wrong "$(judge "$work/broken.csv")"
 
-[ "$failures" -eq 0 ] || { echo "$failures of the checks of accuracy failed"; exit 1; }
+finish accuracy

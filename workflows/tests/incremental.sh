@@ -3,15 +3,12 @@
 # a folder of its own; arguments go to make (BIN=FOLDER, -j2).
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-make_arguments=("$@")
-. "$workflows/tests/expect.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
+work=$scratch
 
 run_make() {
   make -C "$workflows" "${make_arguments[@]}" OUT="$work/out" PAPER="$work/paper" "$@" \
-    > "$work/make.log" 2>&1 || { cat "$work/make.log"; echo "FAILED: make $*"; exit 1; }
+    > "$log" 2>&1 || { cat "$log"; echo "FAILED: make $*"; exit 1; }
 }
 
 # Paths, times (to the nanosecond) and sizes of all files made so far. Hidden files are notes of
@@ -82,7 +79,7 @@ run_make paper
 expect 'a run that did not finish is taken up' paper/sp-constant-table.results/run.json \
   "$(redone "$work/before" | grep run.json)"
 expect 'and goes on from its last snapshot' 'going on from t = 4' \
-  "$(grep -o 'going on from t = [0-9]*' "$work/make.log")"
+  "$(grep -o 'going on from t = [0-9]*' "$log")"
 
 rm "$work/out/paper/sp-constant-figure.masses.svg"
 inventory > "$work/before"
@@ -113,8 +110,8 @@ sed -i 's/^porosity .*/porosity = 1.3/' "$work/another/mine.toml"
 inventory > "$work/before"
 status=0
 make -C "$workflows" "${make_arguments[@]}" OUT="$work/out" study SCENE="$work/another/mine.toml" \
-  > "$work/make.log" 2>&1 || status=$?
+  > "$log" 2>&1 || status=$?
 expect 'a wrong scene stops make' 2 "$status"
 expect 'and leaves what stood there' '' "$(redone "$work/before" | grep -v '\.inputs$\|\.log$\|\.status$')"
 
-[ "$failures" -eq 0 ] || { echo "$failures of the incremental checks failed"; exit 1; }
+finish 'what make redoes'

@@ -16,7 +16,7 @@ from bounds import bounds
 from critical_level import crossing, draw, replay, search
 from expectations import expect, expect_near, finish
 from fragility import draw_chart, groups_of, with_any
-from levels import Study, changes_in, named_warnings
+from levels import Study, named_warnings
 from common import InputError
 from svg import CURVES, WIDTH
 

@@ -140,7 +140,7 @@ test-fuzz: build-fuzz-readers
 .PHONY: test-workflow
 test-workflow: build-studies
 	@{ tests/incremental.sh && tests/adapt.sh && tests/level.sh; } & other=$$!; status=0; \
-	  { $(MAKE) stress SHORT=1 && tests/kill.sh && tests/laboratory.sh && tests/sweep.sh && tests/fit.sh; } || status=1; \
+	  { $(MAKE) stress SHORT=1 && $(MAKE) kill KILLS=10 && tests/laboratory.sh && tests/sweep.sh && tests/fit.sh; } || status=1; \
 	  wait $$other || status=1; exit $$status
 
 # This study is timed, so it belongs to nightly; tests assert the orders of convergence.
@@ -164,9 +164,9 @@ check-format: provision
 # The first line tests the checks themselves.
 .PHONY: check-rooms
 check-rooms:
-	@for check in rooms.sh tidy_batches.py convergence.py; do log=$$(tests/$$check) || { echo "$$log"; exit 1; }; done
+	@for check in rooms.sh tidy.py convergence.py; do log=$$(tests/$$check) || { echo "$$log"; exit 1; }; done
 	@./check_sources.py
 
 .PHONY: tidy
 tidy: build
-	@./tidy.sh ../build/release $(jobs) $(TIDY_SINCE)
+	@./tidy.py ../build/release $(jobs) $(TIDY_SINCE)

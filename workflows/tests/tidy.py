@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Does tidy_batches.py choose the batches that have what changed?"""
+"""Does tidy.py choose the batches that have what changed?"""
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-sys.dont_write_bytecode = True
-from tidy_batches import chosen  # noqa: E402
+from expectations import expect, finish
+from tidy import chosen
 
 batches = {'flow.o': 'flow.cxx', 'grid.o': 'grid.cxx', 'post.o': 'post.cxx', 'new.o': 'new.cxx'}
 includes = {
@@ -23,9 +23,6 @@ expected = [
     ('two headers that one batch includes', ['solver/flow/flow.hpp', 'solver/grid/grid.hpp'], ['flow.cxx']),
     ('a header that nothing includes', ['solver/flow/unused.hpp'], []),
 ]
-failures = 0
 for what, changed, wanted in expected:
-    found = sorted(chosen(changed, batches, includes))
-    print(f'ok: {what}' if found == wanted else f'FAILED: {what}: expected {wanted}, found {found}')
-    failures += found != wanted
-sys.exit(1 if failures else 0)
+    expect(what, wanted, sorted(chosen(changed, batches, includes)))
+finish('batches that clang-tidy looks at')

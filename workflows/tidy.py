@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""The batches of source files that clang-tidy is to look at: tidy_batches.py BUILD [COMMIT]
+"""clang-tidy on the sources: tidy.py BUILD JOBS [COMMIT|new]
 
-BUILD has compile_commands.json; ninja knows what each batch includes. Without COMMIT all batches of
-mesher/, solver/ and post/ are printed; with it those of the sources that differ from that commit. A
-header that differs is seen through one batch that includes it. All batches are printed too where
-the checks themselves differ, and where git knows no such commit: a checkout may come without its
-history.
+Headers take most of its time, so it looks at the batches of files that are compiled as one. BUILD has compile_commands.json; ninja
+knows what each batch includes. Without COMMIT it looks at all batches of mesher/, solver/ and post/; with it at those of the sources
+that differ from that commit; with `new` from the commit where the branch left main, and on main from the previous one. A header that
+differs is seen through one batch that includes it. All batches are looked at too where the checks themselves differ, and where git
+knows no such commit: a checkout may come without its history.
 """
+import concurrent.futures
 import json
 import os
 import re
@@ -16,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ('mesher/', 'solver/', 'post/')
-CHECKS = ('.clang-tidy', 'workflows/tidy.sh', 'workflows/tidy_batches.py', 'workflows/packages.txt')
+CHECKS = ('.clang-tidy', 'workflows/tidy.py', 'workflows/packages.txt')
 
 
 def batches_by_object(build):
@@ -29,15 +30,22 @@ def batches_by_object(build):
     return batches
 
 
-def differing(commit):
-    """Paths that differ from a commit, or None where git cannot say."""
-    git = ['git', '-C', str(ROOT)]
+def git(*arguments):
+    """What git says, or None where it cannot say."""
     try:
-        changed = subprocess.run([*git, 'diff', '--name-only', '--diff-filter=d', commit, '--'], capture_output=True, text=True, check=True)
-        added = subprocess.run([*git, 'ls-files', '--others', '--exclude-standard'], capture_output=True, text=True, check=True)
+        return subprocess.run(['git', '-C', str(ROOT), *arguments], capture_output=True, text=True, check=True).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
         return None
-    return set((changed.stdout + added.stdout).splitlines())
+
+
+def differing(commit):
+    """Paths that differ from a commit, or None where git cannot say."""
+    if commit == 'new':
+        commit = git('merge-base', 'HEAD', 'origin/main') or git('merge-base', 'HEAD', 'main') or ''
+        commit = 'HEAD^' if commit == git('rev-parse', 'HEAD') else commit
+    changed = git('diff', '--name-only', '--diff-filter=d', commit, '--') if commit else None
+    added = git('ls-files', '--others', '--exclude-standard')
+    return None if changed is None or added is None else {*changed.splitlines(), *added.splitlines()}
 
 
 def includes_by_object(build):
@@ -70,16 +78,26 @@ def chosen(changed, batches, includes):
 
 
 def main():
-    build = Path(sys.argv[1]).resolve()
+    build, jobs = Path(sys.argv[1]).resolve(), int(sys.argv[2])
     batches = batches_by_object(build)
-    changed = differing(sys.argv[2]) if len(sys.argv) > 2 and sys.argv[2] else None
+    changed = differing(sys.argv[3]) if len(sys.argv) > 3 else None
     if changed is None or changed & set(CHECKS):
         looked_at = set(batches.values())
     else:
         looked_at = chosen(changed, batches, includes_by_object(build))
     print(f'tidy: {len(looked_at)} of {len(set(batches.values()))} batches', file=sys.stderr)
-    print('\n'.join(sorted(looked_at)))
+
+    def look(batch):
+        ended = subprocess.run(['clang-tidy', '-quiet', '--config-file=.clang-tidy', '-p', build, '--checks=-bugprone-suspicious-include',
+                                '--extra-arg=-Wno-unknown-warning-option', r'--header-filter=/(mesher|solver|post)/.*\.[ch]pp$', batch],
+                               cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        if ended.returncode:
+            print(ended.stdout, flush=True)
+        return ended.returncode == 0
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        return 0 if all(list(pool.map(look, sorted(looked_at)))) else 1
 
 
 if __name__ == '__main__':
-    main()
+    sys.exit(main())
