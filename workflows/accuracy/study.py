@@ -146,22 +146,23 @@ POINTS = {"sp": ["3"], "dp": ["12", "3", "48"], "paper": ["12", "3"]}
 FEW_POINTS = {"sp": ["3"], "dp": ["3"], "paper": ["3"]}
 
 
-def sizes_of(problem, short, formulation, way, usual):
-    """Sizes of a series, the coarsest first. `usual`: the usual points and tolerance.
+def sizes_of(problem, short, formulation, way, usual_points, tolerance):
+    """Sizes of a series, the coarsest first.
 
-    Only sp has the finest size. Other numbers of points leave out the two finest sizes, because they are slow and show
-    nothing more, and so do other tolerances.
+    Only sp has the finest size of fines. Other numbers of points leave out the two finest sizes, or the finest with the implicit scheme,
+    because they are slow and show nothing more. So do other tolerances.
     """
     if short:  # the check judges times of fines-constant, so it has runs long enough to be timed
         judged = problem == "fines-constant" and formulation == "sp"
         return OF_FINES[3:5] if judged else SHORT_SIZES.get(problem, OF_FINES[:2])
     if problem == "startup" and way != "implicit":
         return OF_FINES  # the error of the explicit schemes falls with the step, and the step with the size
-    if problem == "dam":
-        return SIZES[problem][: None if usual else 4]
-    if SIZES[problem] is OF_FINES and not usual:
-        return OF_FINES[:4]
-    return SIZES[problem][: None if formulation == "sp" else 5]
+    usual = usual_points and tolerance in ("", TOLERANCES[0])
+    if SIZES[problem] is not OF_FINES:
+        return SIZES[problem][: 4 if problem == "dam" and not usual else None]
+    if formulation == "sp" and (usual or tolerance == "1e-2"):  # the tolerance to choose for these problems
+        return OF_FINES
+    return OF_FINES[: 5 if usual or way == "implicit" and not usual_points else 4]
 
 
 def variants(problem, short):
@@ -178,19 +179,13 @@ def variants(problem, short):
         if way == "implicit":
             series = [(usual, tolerance) for tolerance in TOLERANCES[: 1 if short else None]] + [(count, TOLERANCES[0]) for count in others]
         for count, tolerance in series:
-            sizes = sizes_of(problem, short, formulation, way, count == usual and tolerance in ("", TOLERANCES[0]))
-            if SIZES[problem] is OF_FINES and not short and way == "implicit":
-                if count != usual:
-                    sizes = OF_FINES[:5]
-                if formulation == "sp" and tolerance == "1e-2":  # the tolerance to choose for these problems
-                    sizes = OF_FINES
             keys = [FORMULATIONS[formulation], WAYS[way]]
             keys += [f"points.liquid_per_element={count}"] * (formulation != "sp")
             keys += [AS_IN_PAPER] * (formulation == "paper") + [AT_POINTS] * (formulation == "paper" and way != "implicit")
             keys += [f"time.tolerance={tolerance}"] * bool(tolerance)
             # A problem in which nothing erodes has no exchange of mass.
             keys = [key for key in " ".join(keys).split() if problem != "startup" or "erosion" not in key]
-            for size in sizes:
+            for size in sizes_of(problem, short, formulation, way, count == usual, tolerance):
                 yield f"{formulation}-{way}", size, count, tolerance, [f"mesh.size={size}", *keys]
 
 

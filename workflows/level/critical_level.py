@@ -9,9 +9,8 @@ environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
 
 import dataclasses
 import math
-import sys
 
-from levels import (InputError, call, csv_text, named_failures, named_warnings, number_in, outcomes, problem, rounded,
+from levels import (InputError, call, csv_text, named_failures, number_in, outcomes, problem, report, rounded,
                     rows_of_sweep, said_beside, write_changed, write_table)
 from assessment import SLOPE, in_order, is_assessed, messages_of, spoken
 from common import cell
@@ -253,12 +252,7 @@ def conclude(study, folder):
     lines += [f"- {' and '.join(absent)}: no level has a factor."] if absent else []
     lines += [f"- {text}." for text in not_looked_at(folder, rows_known.values(), mechanisms)]
     lines += ["", *beside] if (beside := said_beside(study, folder, rows_known.values(), mechanisms, "Not part of the search")) else []
-    write_changed(folder / "report.md", "\n".join(lines) + "\n")
-    print("\n".join(lines))
-    print(f"Tables and chart are in {folder.resolve()}")
-    for line in named_warnings(folder, wanted) + named_failures(silent):
-        print(f"critical_level.py: {line}", file=sys.stderr)
-    return 1 if silent else 0
+    return report(folder, lines, wanted, silent)
 
 
 if __name__ == "__main__":

@@ -6,12 +6,12 @@ if runs have no answer.
 """
 
 import os
-import sys
 
-from levels import (InputError, call, csv_text, named_failures, named_warnings, outcomes, problem, rounded, rows_of_sweep, said_beside,
+from scipy.stats import beta
+
+from levels import (InputError, call, csv_text, named_failures, outcomes, problem, report, rounded, rows_of_sweep, said_beside,
                     write_changed, write_table)
 from assessment import EROSION, SLOPE, Outcome, in_order, spoken
-from bounds import SHARE, bounds
 from common import cell
 from runs import MOST_RUNS, read_runs
 from svg import CURVES, Panel, document
@@ -24,6 +24,18 @@ APART = 7
 ASIDE = 0.01
 # Levels that the axis can name.
 MOST_MARKED = 8
+
+
+SHARE = 0.95  # of the bounds of a probability
+
+
+def bounds(failures, runs):
+    """The interval of probabilities with which so many failures are not unlikely: that of Clopper and Pearson (1934, Biometrika 26,
+    404), which is never too narrow. Its digits do not depend on the version of SciPy."""
+    tail = 0.5 * (1.0 - SHARE)
+    low = 0.0 if failures == 0 else beta.ppf(tail, failures, runs - failures + 1)
+    high = 1.0 if failures == runs else beta.ppf(1.0 - tail, failures + 1, runs - failures)
+    return float(f"{low:.6g}"), float(f"{high:.6g}")
 
 
 def asked_levels():
@@ -149,12 +161,7 @@ def conclude(study, folder):
     if SLOPE not in mechanisms:
         lines.append("The slope was not looked at.")
     lines += said_beside(study, folder, rows, mechanisms, "Not counted")
-    write_changed(folder / "report.md", "\n".join(lines) + "\n")
-    print("\n".join(lines))
-    print(f"Tables and chart are in {folder.resolve()}")
-    for line in named_warnings(folder, rows) + named_failures(silent):
-        print(f"fragility.py: {line}", file=sys.stderr)
-    return 1 if silent else 0
+    return report(folder, lines, rows, silent)
 
 
 if __name__ == "__main__":

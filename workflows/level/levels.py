@@ -225,6 +225,15 @@ def named_warnings(folder, rows):
     return lines
 
 
+def report(folder, lines, rows, silent):
+    """Writes and prints the report, and what the programs said. Returns the exit code."""
+    write_changed(folder / "report.md", "\n".join(lines) + "\n")
+    print("\n".join([*lines, f"Tables and chart are in {folder.resolve()}"]), flush=True)
+    for line in named_warnings(folder, rows) + named_failures(silent):
+        print(f"{pathlib.Path(sys.argv[0]).name}: {line}", file=sys.stderr)
+    return 1 if silent else 0
+
+
 def named_failures(rows):
     """A line for each run that has no answer, ten at most."""
     lines = [f"{row['run']} {row['status']}: {row['message'] or 'has no answer; call make again'}" for row in rows]

@@ -1,4 +1,4 @@
-"""How safe a run is: what assess.sh wrote, as factors of safety. A factor below 1 is a failure.
+"""How safe a run is: what run.py wrote, as factors of safety. A factor below 1 is a failure.
 
 A mechanism is a way to fail. Those of `suffuse-post check` have the words of its table; `slope` is the factor of safety
 of the soil, by reduction of its strength.
@@ -46,7 +46,7 @@ def in_order(mechanisms):
 
 
 def messages_of(stem):
-    """What assess.sh could not find, and why: `check` or `factor` -> message. `warning` is no reason."""
+    """What run.py could not find, and why: `check` or `factor` -> message. `warning` is no reason."""
     lines = stem.with_name(stem.name + ".assessed").read_text(encoding="utf-8", errors="replace").splitlines()
     found = {}
     for what, _, message in (line.partition(": ") for line in lines):

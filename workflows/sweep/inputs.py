@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a run is made of, in a file STEM.inputs: run.sh makes the run again when this changes.
+"""What a run is made of, in a file STEM.inputs: run.py makes the run again when this changes.
 
     scene /path/weir.toml                     the scene
     set soil.foundation.porosity=0.3          a change of it, as for the mesher's --set

@@ -27,7 +27,7 @@ def study():
     scene, programs = find_file("SCENE"), programs_of()
     stem = stem_of("study", scene)
     write_inputs(scene, programs, stem)
-    ended = subprocess.run([here / "run.sh", programs, stem, os.environ["TOLERANCE"]], env=os.environ | {"PROGRESS": "1"})
+    ended = subprocess.run([here / "run.py", programs, stem, os.environ["TOLERANCE"]], env=os.environ | {"PROGRESS": "1"})
     if ended.returncode:
         return ended.returncode
     post = programs / "suffuse-post"

@@ -3,7 +3,7 @@
 MAKE; its -j holds for the runs, which rows.mk makes.
 
 Writes runs.csv, what each run is made of, sweep.csv, cost.csv and figures. With SWEEP_FOLDER the sweep is in that folder and has no
-figures. With FACTOR=1 it looks at how safe the last state of each run is; FACTOR=all, start and checks: assess.sh. REGION and
+figures. With FACTOR=1 it looks at how safe the last state of each run is; FACTOR=all, start and checks: run.py. REGION and
 DEEPER leave soil out. Exit codes: 2 for wrong input; 1 if a run did not end well.
 """
 
@@ -185,8 +185,7 @@ def make(scene, table, folder, states="", with_figures=False):
     if os.environ.get("REGION") or os.environ.get("DEEPER"):
         arguments += reduction_options(read_scene(scene), read_runs(table)[0], states)
     prepare(scene, table, folder, programs, arguments)
-    run, ended = ("assess.sh", "assessed") if states else ("run.sh", "status")
-    variables = {"PROGRAMS": str(programs), "STATES": " ".join(arguments), "RUN": str(here / run), "ENDED": ended}
+    variables = {"PROGRAMS": str(programs), "STATES": " ".join(arguments), "RUN": str(here / "run.py")}
     sys.stdout.flush()
     # make's job slots are open files. A run that was stopped or killed does not stop the others.
     subprocess.run([os.environ["MAKE"], "-k", "-C", folder, "-f", here / "rows.mk"], env=os.environ | variables, close_fds=False)
