@@ -76,7 +76,7 @@ def adapt():
                 print(elements, q, low, high, sep=",", file=table, flush=True)
                 meshes.append((int(elements), float(high) - float(low)))
             first = mode == "--by-default" and count == 1
-            if first:  # with the key the run says how well its discharge is known
+            if first:  # the key makes the run say how well its discharge is known
                 changes.extend(["--set", "mesh.error=0.01"])
             if " is met" in answer:
                 return 0, "", mesh() if first else said

@@ -39,5 +39,6 @@ accuracy: $(accuracy_pictures)
 # Reference for the runs of the dam; takes a few minutes, and is made again only when the physics changes.
 .PHONY: accuracy-dam
 accuracy-dam: $(mesher) $(solver) $(post)
+	@mkdir -p $(OUT)
 	$(accuracy) dam $(BIN) $(accuracy_out) > $(accuracy_out).dam
 	mv $(accuracy_out).dam accuracy/dam.csv

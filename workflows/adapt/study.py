@@ -77,7 +77,7 @@ class Mesh:
     high: float
     elements: int
     seconds: float
-    loop_seconds: float = None  # of the last mesh of a loop; of other meshes of mesher and solver
+    loop_seconds: float = None  # the last mesh of a loop has that of the loop; other meshes that of mesher and solver
 
     @property
     def middle(self):

@@ -26,7 +26,7 @@ ASIDE = 0.01
 MOST_MARKED = 8
 
 
-SHARE = 0.95  # of the bounds of a probability
+SHARE = 0.95  # how often the bounds of a probability hold
 
 
 def bounds(failures, runs):
