@@ -1,23 +1,26 @@
 #!/usr/bin/env python3
 """Meshes of ten sections of steady flow: adapted, uniform, graded by hand.
 
-    study.py PROGRAMS OUT [SECTION]...
+    study.py PROGRAMS OUT [SECTION]...            writes OUT/meshes.csv, a row for each mesh, and OUT/table.md
+    study.py --document PROGRAMS OUT DOCS         puts the table between the marks of the document, and draws its pictures
 
-Writes OUT/meshes.csv, a row for each mesh, and OUT/table.md. Exits with 3 if intervals of one section
-do not meet, if mesh.error is not met, or if the gap falls too slowly.
+Exits with 3 if intervals of one section do not meet, if mesh.error is not met, or if the gap falls too slowly.
 """
 
-import csv
+import collections
+import dataclasses
 import math
 import os
 import re
 import shutil
-import subprocess
+import statistics
 import sys
-import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(1, str(HERE.parent))
+import svg
+from common import call, csv_text, markdown, put_between, read_rows, run_json, timed
 ERRORS = (0.01, 0.001)
 HALVINGS = 4
 GRADING = 1 / 16  # size at corners, feet and ends over that elsewhere
@@ -46,15 +49,8 @@ def discharge_under_base(half_width, depth):
     return complete_integral(1.0 - m) / (2.0 * complete_integral(m))
 
 
-class Section:
-    """One of the ten: exact is the discharge, m3/s per m, where it is known; reaches the least error that is
-    expected within mesh.max_elements."""
-
-    def __init__(self, name, words, dimension=2, exact=None, reaches=0.001):
-        self.name, self.words, self.dimension = name, words, dimension
-        self.exact, self.reaches = exact, reaches
-
-
+# exact: the discharge, m3/s per m, where it is known; reaches: the least error that is expected within mesh.max_elements.
+Section = collections.namedtuple("Section", "name words dimension exact reaches", defaults=(2, None, 0.001))
 # Both layers end six times their depth from the pile or the dam, which changes the discharge by less than 1e-8.
 SECTIONS = (
     Section("harr-dam", "dam with a flat base on a layer", exact=1e-4 * 2.0 * discharge_under_base(0.5, 1.0)),
@@ -70,14 +66,18 @@ SECTIONS = (
 )
 
 
+@dataclasses.dataclass
 class Mesh:
     """A mesh and what its flow says: the interval of the discharge, and wall times."""
 
-    def __init__(self, section, kind, number, interval, elements, seconds):
-        self.section, self.kind, self.number = section, kind, number
-        self.low, self.high = interval
-        self.elements, self.seconds = elements, seconds
-        self.loop_seconds = None  # of the last mesh of a loop; of other meshes of mesher and solver
+    section: Section
+    kind: str
+    number: int
+    low: float
+    high: float
+    elements: int
+    seconds: float
+    loop_seconds: float = None  # the last mesh of a loop has that of the loop; other meshes that of mesher and solver
 
     @property
     def middle(self):
@@ -93,55 +93,28 @@ class Mesh:
         return 0.5 * self.gap / abs(self.middle)
 
 
-def run(command):
-    """Wall time of a command and what it printed; stops the study if it fails."""
-    begin = time.perf_counter()
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    seconds = time.perf_counter() - begin
-    if done.returncode not in (0, 3) or "error:" in done.stderr:
-        sys.exit(f"study.py: {' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-    return seconds, done
-
-
 class Study:
     def __init__(self, programs, out):
         self.programs, self.out = Path(programs).resolve(), Path(out).resolve()
         self.out.mkdir(parents=True, exist_ok=True)
         self.meshes = []
-        self.make_keeping_programs()
-
-    def make_keeping_programs(self):
-        """Programs whose solver keeps each case: adapt.sh replaces it, and its table has five digits."""
-        self.keeping = self.out / "programs"
-        self.keeping.mkdir(exist_ok=True)
-        for name, text in (
-            ("suffuse-mesher", f'exec "{self.programs}/suffuse-mesher" "$@"'),
-            ("suffuse-solver", 'number=1\nwhile [ -e "$KEEP-$number.case.h5" ]; do number=$((number + 1)); done\n'
-             f'cp "$1" "$KEEP-$number.case.h5"\nexec "{self.programs}/suffuse-solver" "$@"'),
-        ):
-            program = self.keeping / name
-            program.write_text(f"#!/bin/bash\n{text}\n")
-            program.chmod(0o755)
 
     def solve(self, case):
-        """Interval of the discharge, number of elements, wall time of the steady solution."""
+        """Ends of the interval of the discharge, number of elements, wall time of the steady solution."""
         results = case.with_name("run.results")
-        seconds, _ = run([self.programs / "suffuse-solver", case, "-o", results, "--force", "--quiet"])
-        with open(results / "history.csv", encoding="utf-8") as file:
-            row = list(csv.DictReader(file))[-1]
+        seconds, _ = timed(self.programs / "suffuse-solver", case, "-o", results, "--force", "--quiet")
+        row = read_rows(results / "history.csv")[-1]
         interval = float(row["flux_out_low"]), float(row["flux_out_high"])
         if interval == (0.0, 0.0):
             interval = self.sum_of_outflows(results)
         elif float(row["flux_out_estimate"]) != 0.0:
             sys.exit(f"study.py: {case}: an estimate, no bound")
-        elements = re.search(r'"elements": (\d+)', (results / "run.json").read_text(encoding="utf-8"))
-        return interval, int(elements.group(1)), seconds
+        return *interval, int(run_json(results)["elements"]), seconds
 
     @staticmethod
     def sum_of_outflows(results):
         """Where a boundary lets liquid in and out history.csv has no interval: the boundaries have."""
-        with open(results / "boundaries.csv", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = read_rows(results / "boundaries.csv")
         rows = [r for r in rows if r["t"] == rows[-1]["t"] and float(r["discharge"]) > 0.0]
         return sum(float(r["discharge_low"]) for r in rows), sum(float(r["discharge_high"]) for r in rows)
 
@@ -150,11 +123,13 @@ class Study:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         stem = folder / section.name
-        seconds, done = run(["env", f"KEEP={folder}/mesh", HERE.parent / "adapt.sh", self.keeping,
-                             HERE / f"{section.name}.toml", stem, "--set", f"mesh.error={error}"])
+        seconds, done = timed(HERE.parent / "adapt.py", self.programs, HERE / f"{section.name}.toml", stem, "--set", f"mesh.error={error}",
+                              ok=(0, 3), env=os.environ | {"KEEP_MESHES": "1"})
         (folder / "log").write_text(done.stdout + done.stderr, encoding="utf-8")
-        cases = sorted(folder.glob("mesh-*.case.h5"), key=lambda path: int(path.name[5:].split(".")[0]))
-        for number, case in enumerate(cases, 1):
+        if "error:" in done.stderr:
+            sys.exit(f"study.py: {section.name}: {done.stderr}")
+        for number, _ in enumerate(read_rows(f"{stem}.adapt.csv"), 1):
+            case = folder / f"{section.name}-{number}.case.h5"
             self.meshes.append(Mesh(section, f"adapted to {error}", number, *self.solve(case)))
             case.unlink()
         self.meshes[-1].loop_seconds = seconds
@@ -178,8 +153,7 @@ class Study:
             (folder / f"{section.name}.geo").write_text(text, encoding="utf-8")
             (folder / f"{section.name}.toml").write_text(scene, encoding="utf-8")
             case = folder / f"{section.name}.case.h5"
-            seconds, _ = run([self.programs / "suffuse-mesher", folder / f"{section.name}.toml",
-                              "--set", f"mesh.size={size!r}", "-o", case])
+            seconds, _ = timed(self.programs / "suffuse-mesher", folder / f"{section.name}.toml", "--set", f"mesh.size={size!r}", "-o", case)
             self.meshes.append(Mesh(section, kind, number + 1, *self.solve(case)))
             self.meshes[-1].loop_seconds = seconds + self.meshes[-1].seconds
             elements = self.meshes[-1].elements
@@ -194,24 +168,17 @@ class Study:
         print(f"{section.name}, {kind}: {steps}", flush=True)
 
     def write_meshes(self):
-        with open(self.out / "meshes.csv", "w", encoding="utf-8", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow(("section", "kind", "mesh", "elements", "flux_out_low", "flux_out_high", "error", "exact",
-                            "solver_seconds", "loop_seconds"))
-            for m in self.meshes:
-                table.writerow((m.section.name, m.kind, m.number, m.elements, repr(m.low), repr(m.high), f"{m.error:.6g}",
-                                "" if m.section.exact is None else repr(m.section.exact), f"{m.seconds:.3f}",
-                                "" if m.loop_seconds is None else f"{m.loop_seconds:.3f}"))
+        header = ["section", "kind", "mesh", "elements", "flux_out_low", "flux_out_high", "error", "exact", "solver_seconds", "loop_seconds"]
+        rows = [[m.section.name, m.kind, m.number, m.elements, m.low, m.high, f"{m.error:.6g}", m.section.exact, f"{m.seconds:.3f}",
+                 "" if m.loop_seconds is None else f"{m.loop_seconds:.3f}"] for m in self.meshes]
+        (self.out / "meshes.csv").write_text(csv_text([header, *rows]), encoding="utf-8")
 
 
 def slope(meshes):
     """Least squares of log(gap) over log(elements); None of fewer than two meshes."""
     if len(meshes) < 2:
         return None
-    x = [math.log(m.elements) for m in meshes]
-    y = [math.log(m.gap) for m in meshes]
-    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
-    return (sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x))
+    return statistics.linear_regression(*([math.log(value) for value in values] for values in zip(*((m.elements, m.gap) for m in meshes)))).slope
 
 
 class Family:
@@ -247,45 +214,43 @@ def seconds_text(seconds):
     return f"{seconds:.0f}" if seconds >= 10 else f"{seconds:.1f}" if seconds >= 1 else f"{seconds:.2f}"
 
 
-class Verdicts:
-    def __init__(self):
-        self.wrong = False
-
-    def check(self, right, sentence):
-        print(("ok: " if right else "WRONG: ") + sentence)
-        self.wrong = self.wrong or not right
+def verdict(right, sentence, wrong="WRONG: "):
+    print(("ok: " if right else wrong) + sentence)
+    return right
 
 
-def check(study, section, verdicts):
+def check(study, section):
+    """Whether all is as it must be."""
     name = section.name
     own = [m for m in study.meshes if m.section is section]
     low, high = max(m.low for m in own), min(m.high for m in own)
-    verdicts.check(low - high <= ROUND_OFF * abs(high), f"{name}: the intervals of {len(own)} meshes meet: {low:.8g} to {high:.8g}")
+    right = [verdict(low - high <= ROUND_OFF * abs(high), f"{name}: the intervals of {len(own)} meshes meet: {low:.8g} to {high:.8g}")]
     if section.exact is not None:
-        verdicts.check(low <= section.exact * (1 + ROUND_OFF) and section.exact <= high * (1 + ROUND_OFF),
-                       f"{name}: they contain the exact value {section.exact:.8g}")
+        right.append(verdict(low <= section.exact * (1 + ROUND_OFF) and section.exact <= high * (1 + ROUND_OFF),
+                             f"{name}: they contain the exact value {section.exact:.8g}"))
     for error in ERRORS:
         last = study.of(section, f"adapted to {error}")[-1]
         sentence = f"{name}: mesh.error = {error}: {100 * last.error:.3g} % with {last.elements} elements"
-        if error >= section.reaches:
-            verdicts.check(last.error <= error, sentence)
-        else:
-            print(("ok: " if last.error <= error else "not met, as expected: ") + sentence)
+        expected = error < section.reaches
+        right.append(verdict(last.error <= error, sentence, "not met, as expected: " if expected else "WRONG: ") or expected)
     fall = slope(study.of(section, f"adapted to {ERRORS[-1]}")[1:])
     if section.dimension == 2:
-        verdicts.check(fall is not None and fall <= LEAST_SLOPE, f"{name}: the gap falls with the power "
-                       f"{'of one adapted mesh: none' if fall is None else f'{fall:.3g}'} of the elements")
+        right.append(verdict(fall is not None and fall <= LEAST_SLOPE, f"{name}: the gap falls with the power "
+                             f"{'of one adapted mesh: none' if fall is None else f'{fall:.3g}'} of the elements"))
     last = study.of(section, f"adapted to {ERRORS[-1]}")[-1]
     uniform = Family(study.of(section, "uniform"), ERRORS[-1]).elements
     if last.error <= ERRORS[-1]:
-        few = last.elements <= SHARE_OF_UNIFORM * uniform
-        print(f"{'ok' if few else 'more than a tenth'}: {name}: {last.elements} elements, {last.elements / uniform:.2g} of the uniform ones")
+        verdict(last.elements <= SHARE_OF_UNIFORM * uniform,
+                f"{name}: {last.elements} elements, {last.elements / uniform:.2g} of the uniform ones", "more than a tenth: ")
+    return all(right)
 
 
-def markdown(study, sections):
-    lines = ["| section | error | meshes | elements | known to | s of the loop | s of the last solution | uniform | graded "
-             "| share of uniform | slope |",
-             "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"]
+HEADER = ("section", "error", "meshes", "elements", "known to", "s of the loop", "s of the last solution", "uniform", "graded",
+          "share of uniform", "slope")
+
+
+def report(study, sections):
+    rows = []
     for section in sections:
         for error in ERRORS:
             own = study.of(section, f"adapted to {error}")
@@ -296,16 +261,11 @@ def markdown(study, sections):
             uniform, graded = (Family(study.of(section, kind), compared) for kind in ("uniform", "graded"))
             fall = slope(own[1:])
             title = section.words + (", 3D" if section.dimension == 3 else "") if error == ERRORS[0] else ""
-            lines.append(
-                f"| {title} | {100 * error:g} % | {len(own)} | {count(last.elements)} | "
-                f"{100 * last.error:.2g} %{'' if met else ', **not met**'} | {seconds_text(last.loop_seconds)} | "
-                f"{seconds_text(last.seconds)} | {uniform.words} | {graded.words} | "
-                f"{last.elements / uniform.elements:.2g} | {'' if fall is None or error == ERRORS[0] else f'{fall:.2f}'.replace('-', '−')} |")
-    lines.append("")
-    for section in sections:
-        if section.exact is not None:
-            lines.append(exact_sentence(study, section))
-    return "\n".join(lines) + "\n"
+            rows.append([title, f"{100 * error:g} %", len(own), count(last.elements), f"{100 * last.error:.2g} %{'' if met else ', **not met**'}",
+                         seconds_text(last.loop_seconds), seconds_text(last.seconds), uniform.words, graded.words,
+                         f"{last.elements / uniform.elements:.2g}", "" if fall is None or error == ERRORS[0] else f"{fall:.2f}".replace("-", "−")])
+    sentences = [exact_sentence(study, section) for section in sections if section.exact is not None]
+    return "\n".join([markdown(HEADER, rows), *sentences]) + "\n"
 
 
 def exact_sentence(study, section):
@@ -321,9 +281,43 @@ def exact_sentence(study, section):
             f"{100 * largest:.0f} % of half of the interval.")
 
 
+CURVES = {"adapted to 0.001": ("adapted", ("#0062bd", "none", "circle")), "graded": ("graded by hand", ("#009150", "2 4", "diamond")),
+          "uniform": ("uniform", ("#000000", "8 5", "square"))}
+
+
+def chart(rows, sections):
+    """Error against elements of adapted, graded and uniform meshes, one chart for each section."""
+    points = {}
+    for row in rows:
+        points.setdefault((row["section"], row["kind"]), []).append((float(row["elements"]), float(row["error"])))
+    shown = [point for section in sections for kind in CURVES for point in points[section, kind]]
+    x, y = (svg.decades([point[k] for point in shown]) for k in (0, 1))
+    parts = []
+    for number, section in enumerate(sections):
+        panel = svg.Panel(x, y, "elements (-)", "" if number else "half of the interval over its middle (-)", title=section,
+                          box=(82 + number * 338, 42, 290, 300), logarithmic=True)
+        parts += panel.axes()
+        for kind, (_, style) in CURVES.items():
+            parts += panel.curve(points[section, kind], style)
+    parts += panel.legend(CURVES.values())
+    return svg.document(f"Error of the discharge against the number of elements: {', '.join(sections)}", parts, panel, 238)
+
+
+def document(programs, out, docs):
+    programs, out, docs = Path(programs), Path(out), Path(docs)
+    sections = ("sheet-pile", "pile-over-clay", "disc")
+    (docs / "images/adapted-error.svg").write_text(chart(read_rows(out / "meshes.csv"), sections), encoding="utf-8")
+    run = out / "pile-over-clay/adapted-0.01/pile-over-clay"
+    call(programs / "suffuse-solver", f"{run}.case.h5", "-o", f"{run}.results", "--force", "--quiet")
+    call(programs / "suffuse-post", "render", f"{run}.results", "--field", "error", "--log", "-o", docs / "images/adapted-mesh.png")
+    put_between("adapted", docs / "evidence/accuracy.md", "\n" + (out / "table.md").read_text(encoding="utf-8") + "\n")
+
+
 def main():
     if len(sys.argv) < 3:
         sys.exit("usage: study.py PROGRAMS OUT [SECTION]...")
+    if sys.argv[1] == "--document":
+        return document(*sys.argv[2:])
     study = Study(sys.argv[1], sys.argv[2])
     sections = [s for s in SECTIONS if len(sys.argv) == 3 or s.name in sys.argv[3:]]
     for section in sections:
@@ -332,11 +326,8 @@ def main():
         study.halve(section, "uniform", 1.0)
         study.halve(section, "graded", GRADING)
         study.write_meshes()
-    (study.out / "table.md").write_text(markdown(study, sections), encoding="utf-8")
-    verdicts = Verdicts()
-    for section in sections:
-        check(study, section, verdicts)
-    sys.exit(3 if verdicts.wrong else 0)
+    (study.out / "table.md").write_text(report(study, sections), encoding="utf-8")
+    sys.exit(0 if all([check(study, section) for section in sections]) else 3)
 
 
 if __name__ == "__main__":

@@ -7,11 +7,10 @@ the coarsest run. A diamond around each value is part of its curve.
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 
-from sweep import csv_text
+from common import csv_text, draw_curves, file_name
 
 COPIED = ("run.json", "mesh.hdf.series", "solid.hdf.series", "liquid.hdf.series", "ledger.csv")
 # Half a diamond, as a share of an axis.
@@ -70,11 +69,6 @@ def draw(folder, name, unit, series, found, programs):
             rows = [[row, x, y] for row, (x, y) in enumerate(line)]
             (curve / "history.csv").write_text(csv_text([["t", x_label, y_label], *rows]), encoding="utf-8")
             folders.append(curve)
-        stem = re.sub(r"[^\w.-]+", "-", name).strip("-")
-        for suffix in ("png", "svg"):
-            command = [programs / "suffuse-post", "figure", "curves", y_label, *folders, "--x", x_label, "--log-x",
-                       *(["--log-y"] if logarithmic_y else []), "-o", folder / f"{stem}.{suffix}"]
-            ended = subprocess.run(command, capture_output=True, text=True)
-            if ended.returncode:
-                print(f"convergence.py: no chart of {name}: {ended.stderr.strip()}", file=sys.stderr)
-                return
+        said = draw_curves(folder / file_name(name), programs, y_label, *folders, "--x", x_label, "--log-x", *["--log-y"] * logarithmic_y)
+        if said:
+            print(f"convergence.py: no chart of {name}: {said}", file=sys.stderr)

@@ -1,15 +1,11 @@
 #!/usr/bin/python3
-"""A study of convergence around a sweep; `make -C workflows convergence` calls it, and sweep.sh makes the runs.
+"""A study of convergence in OUT/convergence/NAME/. make calls it, with its variables in the environment and itself as MAKE. The
+runs are a sweep over mesh.size and time.tolerance, in the folder runs/.
 
-    convergence.py prepare SCENE FOLDER --programs BIN [--first]    writes FOLDER/table.csv, the sweep's table
-    convergence.py outputs FOLDER                                   checks OUTPUTS after the first run of it
-    convergence.py conclude FOLDER --programs BIN                   writes convergence.csv, report.md and charts
-
-OUTPUTS, SIZES and TOLERANCES come from the environment. Exit codes: 2 for wrong input; 1 if the runs are not all done.
+Writes table.csv, the sweep's table, convergence.csv, report.md and charts. Exit codes: 2 for wrong input; 1 if the runs are not all
+done.
 """
 
-import argparse
-import csv
 import json
 import os
 import pathlib
@@ -17,15 +13,15 @@ import re
 import subprocess
 import sys
 import tempfile
-import tomllib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "sweep"))
+workflows = pathlib.Path(__file__).resolve().parent.parent
+sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
 from chart import draw
-from inputs import write_changed
-from outputs import number_of, outputs_of, unit_of, words_of
-from problems import InputError, problem
+from common import (InputError, NotDone, cell, csv_text, end_with, find_file, folder_of, number_of, problem, programs_of, read_rows,
+                    read_scene, set_options, write_changed)
+from outputs import outputs_of, unit_of, words_of
 from richardson import NEGLIGIBLE, ORDERS_OF_SIZE, ORDERS_OF_TOLERANCE, Estimate, estimate
-from sweep import csv_text, read_csv
+from sweep import make
 
 DEFAULT_OUTPUTS = "fines_lost,flux_out"
 DEFAULT_TOLERANCE = 1e-3
@@ -35,10 +31,6 @@ SIZE, TOLERANCE, INERTIA = "mesh.size", "time.tolerance", "time.inertia"
 FOLLOWS = 0.75
 # Share of the difference between the two finest sizes above which irregular errors in time disturb the order in space.
 DISTURBING = 0.3
-
-
-class NotDone(InputError):
-    """Runs that have not reached their end."""
 
 
 # --- What is asked for ------------------------------------------------------------------------------------
@@ -68,12 +60,8 @@ def asked_outputs():
     return names
 
 
-def read_scene(path):
-    """The parts geometry, mesh and time of the scene."""
-    try:
-        scene = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError([f"{path}: cannot be read: {error}"]) from None
+def parts_of(scene):
+    """The parts geometry, mesh and time of a scene."""
     return {name: part if isinstance(part := scene.get(name, {}), dict) else {} for name in ("geometry", "mesh", "time")}
 
 
@@ -93,7 +81,7 @@ def refuse_fixed_meshes(path, scene):
 def mesh(programs, scene, size):
     """What the mesher says of the mesh of a size, or of the scene's own mesh if `size` is None."""
     with tempfile.TemporaryDirectory() as scratch:
-        change = [] if size is None else ["--set", f"{SIZE}={size:.10g}"]
+        change = [] if size is None else set_options([f"{SIZE}={size:.10g}"])
         command = [programs / "suffuse-mesher", scene, *change, "-o", f"{scratch}/mesh.case.h5"]
         ended = subprocess.run(command, capture_output=True, text=True)
     if ended.returncode:
@@ -194,11 +182,9 @@ def table_of(sizes, fixed_size, tolerances, fixed_tolerance, inertia):
     return [[SIZE, TOLERANCE, INERTIA], *rows] if inertia else [[SIZE, TOLERANCE], *(row[:2] for row in rows)]
 
 
-def prepare(options):
-    path, folder = pathlib.Path(options.scene).absolute(), pathlib.Path(options.folder)
-    programs = pathlib.Path(options.programs).absolute()
+def prepare(path, folder, programs, first):
     asked_outputs()
-    scene = read_scene(path)
+    scene = parts_of(read_scene(path))
     refuse_fixed_meshes(path, scene)
     tolerances, fixed_tolerance = tolerances_of(path, scene)
     sizes, fixed_size = sizes_of(path, scene, programs)
@@ -206,18 +192,13 @@ def prepare(options):
     inertia = "" if "inertia" in scene["time"] else inertia_of(folder)
     rows = table_of(sizes, fixed_size, tolerances, fixed_tolerance, inertia)
     folder.mkdir(parents=True, exist_ok=True)
-    write_changed(folder / "table.csv", csv_text(rows[:2] if options.first else rows))
+    write_changed(folder / "table.csv", csv_text(rows[:2] if first else rows))
     plan = {"sizes": sizes, "fixed_size": fixed_size, "tolerances": tolerances, "fixed_tolerance": fixed_tolerance,
             "shape": "shape" in scene["geometry"]}
     (folder / "plan.json").write_text(json.dumps(plan), encoding="utf-8")
 
 
 # --- Runs ----------------------------------------------------------------------------------------------------
-
-
-def sweep_rows(folder):
-    header, *rows = read_csv(folder / "runs" / "sweep.csv")
-    return [dict(zip(header, row)) for row in rows]
 
 
 def with_results(folder, row):
@@ -228,7 +209,7 @@ def with_results(folder, row):
 
 
 def runs_of(folder):
-    rows = sweep_rows(folder)
+    rows = read_rows(folder / "runs" / "sweep.csv")
     bad = [row for row in rows if row["status"] != "done"]
     if bad:
         raise NotDone(["The study needs all its runs, and these are not done. Mend what their messages say, give other SIZES= or "
@@ -389,10 +370,6 @@ def disturbed(space_values, time_values, found_in_time):
 # --- Tables and report ---------------------------------------------------------------------------------------
 
 
-def cell(value):
-    return "" if value is None or value != value else f"{value:.10g}"
-
-
 def row_of(name, unit, space, time, found, found_in_time):
     row = {"output": name, "unit": unit}
     for series in (space, time):
@@ -414,8 +391,7 @@ def paragraph_of(plan, name, unit, space, time, found, found_in_time):
     return " ".join(sentences)
 
 
-def conclude(options):
-    folder, programs = pathlib.Path(options.folder), pathlib.Path(options.programs).absolute()
+def conclude(folder, programs):
     plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
     names = asked_outputs()
     runs = runs_of(folder)
@@ -441,32 +417,21 @@ def conclude(options):
     print(f"\n{report}\nTable, report and charts are in {folder.resolve()}")
 
 
-def outputs(options):
-    folder = pathlib.Path(options.folder)
-    first = sweep_rows(folder)[0]
-    if first["status"] == "done":
-        check_outputs(asked_outputs(), with_results(folder, first))
-
-
-def main():
-    parser = argparse.ArgumentParser(description="A study of convergence around a sweep.")
-    commands = parser.add_subparsers(dest="command", required=True)
-    for name, call in (("prepare", prepare), ("outputs", outputs), ("conclude", conclude)):
-        command = commands.add_parser(name)
-        command.set_defaults(call=call)
-        if name == "prepare":
-            command.add_argument("scene", metavar="SCENE")
-            command.add_argument("--first", action="store_true")
-        command.add_argument("folder", metavar="FOLDER")
-        if name != "outputs":
-            command.add_argument("--programs", required=True, metavar="FOLDER")
-    options = parser.parse_args()
-    try:
-        options.call(options)
-    except InputError as error:
-        print("\n".join(f"convergence.py: {line}" for line in str(error).splitlines()), file=sys.stderr)
-        sys.exit(1 if isinstance(error, NotDone) else 2)
+def work():
+    scene, programs = find_file("SCENE"), programs_of()
+    folder = folder_of("convergence", scene)
+    # The coarsest run shows which outputs there are, before the others cost time.
+    for first in ([] if (folder / "runs/sweep.csv").is_file() else [True]) + [False]:
+        if not first:
+            run, *_ = read_rows(folder / "runs/sweep.csv")
+            if run["status"] == "done":
+                check_outputs(asked_outputs(), with_results(folder, run))
+        prepare(scene, folder, programs, first)
+        code = make(scene, folder.resolve() / "table.csv", folder / "runs")
+        if code:
+            return code
+    return conclude(folder, programs)
 
 
 if __name__ == "__main__":
-    main()
+    end_with("convergence.py: ", work)

@@ -7,10 +7,10 @@
     section[0].NAME         a column of sections.csv
 """
 
-import csv
-import math
 import pathlib
 import sys
+
+from common import read_rows
 
 # Columns of the table of runs, from this one on, are results at the end of the run.
 FIRST_RESULT = "eroded"
@@ -32,10 +32,7 @@ def words_of(name):
 
 def last_rows(path):
     """The rows of the last time of a table."""
-    if not path.is_file():
-        return []
-    with open(path, encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = read_rows(path)
     return [row for row in rows if row["t"] == rows[-1]["t"]]
 
 
@@ -61,15 +58,6 @@ def outputs_of(results, row):
                 if name not in NO_OUTPUTS:
                     found[f"{number}[{last[number]}].{name}"] = value
     return found
-
-
-def number_of(text):
-    """A finite number, or None."""
-    try:
-        value = float(text)
-    except (TypeError, ValueError):
-        return None
-    return value if math.isfinite(value) else None
 
 
 def unit_of(name, dimension):

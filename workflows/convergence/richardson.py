@@ -18,7 +18,7 @@ ORDERS_OF_TOLERANCE = (0.25, 2.0)
 RATIOS = (0.5, 2.0)
 # Differences below this share of the largest value are round-off, or that of an iteration.
 NEGLIGIBLE = 1e-9
-ITERATIONS = 200
+BISECTIONS = 100
 
 
 @dataclasses.dataclass
@@ -35,34 +35,6 @@ class Estimate:
         return self.kind in ("in range", "constant")
 
 
-def iterated_order(ratio, log_fine, log_coarse):
-    """Celik's fixed-point iteration; None if it does not settle."""
-    order = math.log(ratio) / log_fine
-    for _ in range(ITERATIONS):
-        if not 1e-6 < order < 100.0:
-            return None
-        shift = math.log(math.expm1(order * log_fine) / math.expm1(order * log_coarse))
-        last, order = order, (math.log(ratio) + shift) / log_fine
-        if abs(order - last) <= 1e-14 * abs(order):
-            return order
-    return None
-
-
-def bisected_order(ratio, log_fine, log_coarse, low=1e-9, high=100.0):
-    """The same order by bisection: the ratio of the differences grows with the order."""
-
-    def excess(order):
-        return (math.log(math.expm1(order * log_coarse) / math.expm1(order * log_fine)) + order * log_fine
-                - math.log(ratio))
-
-    if excess(high) < 0.0:
-        return math.inf
-    for _ in range(ITERATIONS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if excess(middle) < 0.0 else (low, middle)
-    return 0.5 * (low + high)
-
-
 def observed_order(ratio, fine, coarse):
     """The order p of f0 + C h^p whose differences have this `ratio`, coarse over fine. `fine`, `coarse`: ratios of sizes.
 
@@ -71,8 +43,17 @@ def observed_order(ratio, fine, coarse):
     log_fine, log_coarse = math.log(fine), math.log(coarse)
     if ratio <= log_coarse / log_fine:
         return 0.0
-    order = iterated_order(ratio, log_fine, log_coarse)
-    return bisected_order(ratio, log_fine, log_coarse) if order is None else order
+
+    def excess(order):  # the ratio of the differences grows with the order
+        return math.log(math.expm1(order * log_coarse) / math.expm1(order * log_fine)) + order * log_fine - math.log(ratio)
+
+    low, high = 1e-9, min(100.0, 700.0 / max(log_fine, log_coarse))  # expm1 has no more
+    if excess(high) < 0.0:
+        return math.inf
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) < 0.0 else (low, middle)
+    return 0.5 * (low + high)
 
 
 def estimate(sizes, values, orders=ORDERS_OF_SIZE):

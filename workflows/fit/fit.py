@@ -1,18 +1,15 @@
 #!/usr/bin/python3
-"""Calibrates keys of a scene by what was measured; `make -C workflows fit` calls it, and the sweep's engine makes the runs.
+"""Calibrates keys of a scene by what was measured. make calls it, with its variables in the environment and itself as MAKE; the
+sweep's engine makes the runs, in the folder runs/.
 
-    fit.py SCENE MEASURED FOLDER --keys KEYS --against OUTPUTS --programs BIN
-
-Writes fit.csv, correlations.csv, search.csv, residuals.csv, report.md and charts into FOLDER. Exit codes: 2 for wrong
-input; 1 if runs were stopped, or all failed.
+Writes fit.csv, correlations.csv, search.csv, residuals.csv, report.md and charts into OUT/fit/NAME. Exit codes: 2 for wrong input;
+1 if runs were stopped, or all failed.
 """
 
-import argparse
-import json
 import math
+import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -20,15 +17,13 @@ import numpy
 from scipy.special import chdtrc
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
-sys.path[1:1] = [str(workflows / "sweep"), str(workflows / "convergence")]
+sys.path[1:1] = [str(workflows), str(workflows / "sweep"), str(workflows / "convergence")]
+from common import InputError, NotDone, cell, csv_text, draw_curves, end_with, file_name, find_file, folder_of, programs_of, run_json, write_changed
 from estimator import NEAR_BOUND, POOR, NoRun, derivatives, search, uncertainty
-from inputs import write_changed
 from keys import is_number, read_keys
 from measured import check_outputs, computed, read_measured
 from outputs import unit_of
-from problems import InputError
-from sweep import csv_text
-from trials import NotDone, Trials
+from trials import Trials
 
 # Changes of outputs below this share of their largest value are round-off, or that of an iteration.
 NEGLIGIBLE = 1e-9
@@ -92,8 +87,7 @@ def calibrate(fit):
 # --- Tables ------------------------------------------------------------------------------------------------
 
 
-def cell(value):
-    return "" if value is None or not math.isfinite(value) else f"{value:.8g}"
+cell_of = lambda value: cell(value if math.isfinite(value) else None, 8)
 
 
 def rows_of(fit, found, known):
@@ -103,8 +97,8 @@ def rows_of(fit, found, known):
         value, half = float(text), known.quantile * known.error[j]
         slope = key.slope_at(value)
         low, high = (value * math.exp(-half), value * math.exp(half)) if key.logarithmic else (value - slope * half, value + slope * half)
-        rows.append({"key": key.name, "unit": key.unit, "searched": "logarithm" if key.logarithmic else "value", "start": cell(key.start),
-                     "value": cell(value), "standard_error": cell(slope * known.error[j]), "low95": cell(low), "high95": cell(high),
+        rows.append({"key": key.name, "unit": key.unit, "searched": "logarithm" if key.logarithmic else "value", "start": cell_of(key.start),
+                     "value": cell_of(value), "standard_error": cell_of(slope * known.error[j]), "low95": cell_of(low), "high95": cell_of(high),
                      "said": known.said[j]})
     return rows
 
@@ -114,7 +108,7 @@ def write_tables(folder, fit, rows, known, row):
     measured, values = fit.measured, fit.computed(row)
     tables = {
         "fit": [list(rows[0]), *(list(row.values()) for row in rows)],
-        "correlations": [["key", *names], *([name, *map(cell, line)] for name, line in zip(names, known.correlations))],
+        "correlations": [["key", *names], *([name, *map(cell_of, line)] for name, line in zip(names, known.correlations))],
         "search": [["trial", "run", "purpose", *names, "misfit", "status", "message"], *fit.tried.values()],
         "residuals": [["t", "output", "measured", "computed"],
                       *([f"{t:.10g}", name, f"{value:.10g}", f"{found:.10g}"]
@@ -149,14 +143,10 @@ def draw(folder, fit, results, programs):
             points = pathlib.Path(scratch) / "measured.csv"
             rows = [[f"{t:.17g}", f"{value:.17g}"] for t, value in zip(fit.measured.t[at], fit.measured.value[at])]
             points.write_text(csv_text([["t", output.rpartition(".")[2]], *rows]), encoding="utf-8")
-            stem = re.sub(r"[^\w.-]+", "-", output).strip("-")
-            for suffix in ("png", "svg"):
-                command = [programs / "suffuse-post", "figure", "curves", column_of(output), *(f"{scratch}/{label}.results" for label in results),
-                           "--measured", points, "--time-unit", unit, "-o", folder / f"{stem}.{suffix}"]
-                ended = subprocess.run(command, capture_output=True, text=True)
-                if ended.returncode:
-                    print(f"fit.py: no chart of {output}: {ended.stderr.strip()}", file=sys.stderr)
-                    break
+            said = draw_curves(folder / file_name(output), programs, column_of(output), *(f"{scratch}/{label}.results" for label in results),
+                               "--measured", points, "--time-unit", unit)
+            if said:
+                print(f"fit.py: no chart of {output}: {said}", file=sys.stderr)
 
 
 # --- Report ------------------------------------------------------------------------------------------------
@@ -187,7 +177,7 @@ def key_sentence(fit, rows, known, j):
 
 def misfit_sentences(fit, found, known, row):
     values, measured = fit.computed(row), fit.measured
-    dimension = json.loads((fit.trials.results(row) / "run.json").read_text(encoding="utf-8"))["dimension"]
+    dimension = int(run_json(fit.trials.results(row))["dimension"])
     sentences = []
     for output, at in measured.parts():
         misfit = math.sqrt(numpy.mean((values[at] - measured.value[at]) ** 2))
@@ -219,18 +209,24 @@ def report_of(fit, found, known, rows, row):
     return "\n\n".join(paragraphs) + "\n"
 
 
-def work(options):
-    programs, scene = pathlib.Path(options.programs).absolute(), pathlib.Path(options.scene).absolute()
-    folder = pathlib.Path(options.folder)
-    keys, content = read_keys(options.keys, scene, programs)
-    measured = read_measured(pathlib.Path(options.measured), [name.strip() for name in options.against.split(",") if name.strip()])
+def work():
+    if not any(os.environ.get(name) for name in ("SCENE", "MEASURED", "KEYS")):
+        of_soils = [f"soil.{soil}.erosion.{key}" for soil in ("sand", "silt") for key in ("rate", "threshold")]
+        os.environ |= {"SCENE": "fit/column.toml", "MEASURED": "fit/column.csv", "KEYS": ",".join(of_soils), "AGAINST": ""}
+    scene, table, programs = find_file("SCENE"), find_file("MEASURED"), programs_of()
+    folder = folder_of("fit", scene)
+    keys, content = read_keys(os.environ.get("KEYS", ""), scene, programs)
+    measured = read_measured(table, [name.strip() for name in os.environ.get("AGAINST", "").split(",") if name.strip()])
     if len(measured.t) < len(keys):
         raise InputError([f"{measured.path}: got {len(measured.t)} points; expected at least as many as there are keys, {len(keys)}"])
     end = content.get("time", {}).get("end")
     if is_number(end):
         measured.check_times(end)
     fit = Fit(keys, measured, Trials(scene, [key.name for key in keys], folder, programs))
-    found, known, row = calibrate(fit)
+    try:
+        found, known, row = calibrate(fit)
+    except NoRun:
+        raise NotDone(["the run of the start and those of all other starts failed; mend the scene, or give other bounds in KEYS="]) from None
     rows = rows_of(fit, found, known)
     report = report_of(fit, found, known, rows, row)
     (start,) = fit.trials.run([fit.texts(numpy.zeros(len(keys)))])
@@ -241,21 +237,5 @@ def work(options):
     print(f"\n{report}\n{fit.trials.made} runs were made, {len(fit.tried) - fit.trials.made} were there. Tables, report and charts are in {folder.resolve()}")
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Calibrates keys of a scene by what was measured.")
-    for name in ("scene", "measured", "folder"):
-        parser.add_argument(name, metavar=name.upper())
-    for name in ("keys", "against", "programs"):
-        parser.add_argument(f"--{name}", default="", metavar=name.upper())
-    try:
-        work(parser.parse_args())
-    except NoRun:
-        print("fit.py: the run of the start and those of all other starts failed; mend the scene, or give other bounds in KEYS=", file=sys.stderr)
-        sys.exit(1)
-    except InputError as error:
-        print("\n".join(f"fit.py: {line}" for line in str(error).splitlines()), file=sys.stderr)
-        sys.exit(1 if isinstance(error, NotDone) else 2)
-
-
 if __name__ == "__main__":
-    main()
+    end_with("fit.py: ", work)

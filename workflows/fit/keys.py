@@ -9,9 +9,8 @@ a rate may change by decades and stays positive; otherwise x = (value - start) /
 import math
 import re
 import subprocess
-import tomllib
 
-from problems import InputError, problem
+from common import InputError, problem, read_scene
 
 SYNTAX = "KEY or KEY:LOW:HIGH, with commas between several"
 # A part of a path like soil."my sand".erosion.rate or boundary[0].head.
@@ -60,13 +59,6 @@ def value_in(scene, path):
             return found
         parts[1] = soil["like"]
     return None
-
-
-def read_scene(path):
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError([f"{path}: cannot be read: {error}"]) from None
 
 
 def is_number(value):

@@ -8,14 +8,13 @@ or section[0].COLUMN. The column `deviation`, or OUTPUT.deviation of each output
 is a value that was not measured.
 """
 
-import csv
 import functools
 import re
 
 import numpy
 
-from outputs import NO_OUTPUTS, number_of
-from problems import InputError, problem
+from common import InputError, number_of, problem, read_rows
+from outputs import NO_OUTPUTS
 from runs import lines_of
 
 FORMS = "history.NAME, ledger.NAME, boundary.NAME.COLUMN, probe[0].COLUMN or section[0].COLUMN"
@@ -144,17 +143,14 @@ def curves_of(results):
     curves = {}
     for table in ("history", "ledger", *PLACES):
         path = results / f"{table}.csv"
-        if not path.is_file():
-            continue
         place, form = PLACES.get(table, (None, table))
-        with open(path, encoding="utf-8", newline="") as file:
-            for row in csv.DictReader(file):
-                start = form.format(row[place]) if place else form
-                for column, text in row.items():
-                    if column not in NO_OUTPUTS and column != place:
-                        times, values = curves.setdefault(f"{start}.{column}", ([], []))
-                        times.append(float(row["t"]))
-                        values.append(float(text))
+        for row in read_rows(path):
+            start = form.format(row[place]) if place else form
+            for column, text in row.items():
+                if column not in NO_OUTPUTS and column != place:
+                    times, values = curves.setdefault(f"{start}.{column}", ([], []))
+                    times.append(float(row["t"]))
+                    values.append(float(text))
     return {name: (numpy.array(times), numpy.array(values)) for name, (times, values) in curves.items()}
 
 

@@ -16,12 +16,11 @@ import sys
 import numpy
 
 here = pathlib.Path(__file__).resolve().parent
-sys.path[1:1] = [str(here.parent / "sweep"), str(here.parent / "convergence")]
+sys.path[1:1] = [str(here.parent), str(here.parent / "sweep"), str(here.parent / "convergence")]
+from common import csv_text, write_changed
 from fit import Fit, calibrate
-from inputs import write_changed
 from keys import Key, read_keys
 from measured import DEVIATION, Measured, computed
-from sweep import csv_text
 from trials import Trials
 
 SCENE = here / "column.toml"

@@ -3,17 +3,13 @@
 import os
 import pathlib
 import subprocess
+import sys
 
-from inputs import inputs_of, write_changed
-from problems import InputError
-from sweep import csv_text, read_csv
+from common import InputError, NotDone, csv_text, read_csv, read_rows, write_changed
+from inputs import inputs_of
 
 ENDED = {"done", "refused", "failed", "unbalanced"}
-SWEEP = pathlib.Path(__file__).resolve().parent.parent / "sweep" / "sweep.sh"
-
-
-class NotDone(InputError):
-    """Runs that were stopped: the next call goes on with them."""
+SWEEP = pathlib.Path(__file__).resolve().parent.parent / "sweep" / "sweep.py"
 
 
 class Trials:
@@ -33,10 +29,9 @@ class Trials:
         path = self.folder / "runs" / "sweep.csv"
         if not self.rows or not path.is_file():
             return {}
-        header, *rows = read_csv(path)
-        if header[1 : len(self.names) + 1] != self.names:
+        rows = read_rows(path)
+        if not rows or list(rows[0])[1 : len(self.names) + 1] != self.names:
             return {}
-        rows = [dict(zip(header, row)) for row in rows]
         return {tuple(row[name] for name in self.names): row for row in rows
                 if row["status"] in ENDED and (row["status"] != "done" or (self.results(row) / "run.json").is_file())}
 
@@ -67,7 +62,7 @@ class Trials:
         variables = {"SCENE": str(self.scene), "SWEEP": str(self.table.resolve()), "SWEEP_FOLDER": str(self.folder.resolve() / "runs"),
                      "PROGRAMS": str(self.programs)}
         # make's job slots are open files.
-        ended = subprocess.run([SWEEP, os.getcwd()], env=os.environ | variables, close_fds=False, text=True,
+        ended = subprocess.run([sys.executable, SWEEP], env=os.environ | variables, close_fds=False, text=True,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         lines = ended.stdout.strip().splitlines()
         if ended.returncode not in (0, 1):

@@ -7,10 +7,9 @@
 POST is suffuse-post. A place is open where half of its fines are gone, and a channel has crossed the specimen when a
 place near the inlet is open, by interpolation between snapshots. The second form compares free meshes whose sizes
 halve: the change from the last but one to the last, over the last, and the observed order of the last three. An order
-that no number stands for (differences of unlike signs, or none) is left empty. Nothing but Python is needed.
+that no number stands for (differences of unlike signs, or none) is left empty.
 """
 
-import csv
 import itertools
 import json
 import math
@@ -18,6 +17,9 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(1, str(pathlib.Path(__file__).resolve().parent.parent))
+from common import cell, csv_text, read_rows
 
 WIDTH, COUNT = 0.24, 2401  # of the specimen across the flow, m, and places across it
 OPEN = 0.375  # porosity where half of the fines are gone
@@ -27,18 +29,13 @@ LOSS_AT = [200.0, 300.0, 1200.0, 2000.0, 3000.0]  # s
 OUTPUTS = [*(f"lost_{time:g}s" for time in LOSS_AT), "through", "width_mm", "lost_when_through"]
 
 
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return [{name.split(" [")[0]: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
-
-
 def porosities(post, results, time, x):
     """Porosity along the line across the specimen at x."""
     with tempfile.TemporaryDirectory() as scratch:
         table = f"{scratch}/line.csv"
         subprocess.run([post, "sample", results, "--time", f"{time:.17g}", "--line", f"{x},0:{x},{WIDTH}",
                         "--count", str(COUNT), "--fields", "porosity", "--csv", table], check=True)
-        return [row["porosity"] for row in read(table)]
+        return [float(row["porosity"]) for row in read_rows(table)]
 
 
 def widths(post, results, time, x):
@@ -81,12 +78,12 @@ def setting(run, key, otherwise):
 
 
 def shown(value, digits=4):
-    return "" if value is None else f"{value:.{digits}g}"
+    return cell(value, digits)
 
 
 def row_of(post, folder):
     results = pathlib.Path(folder)
-    ledger = read(results / "ledger.csv")
+    ledger = [{name: float(text) for name, text in row.items()} for row in read_rows(results / "ledger.csv")]
     for row in ledger:
         row["erodible_at_start"] = ledger[0]["erodible"]
     run = json.loads((results / "run.json").read_text())
@@ -109,8 +106,7 @@ def order(coarse, middle, fine):
 
 def changes_of(table):
     """A row for each output of each series of free meshes, from the finest three or two that have a value."""
-    with open(table, newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if row["structure"] == "free"]
+    rows = [row for row in read_rows(table) if row["structure"] == "free"]
     yield ["series", "length_mm", "output", "finest_mm", "coarse", "middle", "fine", "change_percent", "order"]
     for (series, length), members in itertools.groupby(rows, lambda row: (row["run"].split("-")[0], row["length_mm"])):
         finest = sorted(members, key=lambda row: -float(row["size_mm"]))[-3:]
@@ -126,12 +122,12 @@ def changes_of(table):
 def main():
     if len(sys.argv) < 3:
         sys.exit("channels.py: expected POST RESULTS... or --changes TABLE")
-    writer = csv.writer(sys.stdout, lineterminator="\n")
     if sys.argv[1] == "--changes":
-        writer.writerows(changes_of(sys.argv[2]))
-        return
-    writer.writerow(["run", "length_mm", "structure", "size_mm", "elements", *OUTPUTS])
-    writer.writerows(row_of(sys.argv[1], folder) for folder in sys.argv[2:])
+        rows = changes_of(sys.argv[2])
+    else:
+        header = ["run", "length_mm", "structure", "size_mm", "elements", *OUTPUTS]
+        rows = [header, *(row_of(sys.argv[1], folder) for folder in sys.argv[2:])]
+    print(csv_text(rows), end="")
 
 
 if __name__ == "__main__":

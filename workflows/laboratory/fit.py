@@ -9,7 +9,6 @@ results of every run, RUN.results. Exit code 2: a table or the scene is wrong; 1
 """
 
 import argparse
-import csv
 import math
 import os
 import pathlib
@@ -17,21 +16,15 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import tomllib
 
 import numpy
 from scipy.optimize import least_squares
 
+sys.path.insert(1, str(pathlib.Path(__file__).resolve().parent.parent))
+from common import InputError, NotDone, csv_text, end_with, number_of, problem, read_csv, read_rows, read_scene, set_options
+
 UNIT_WEIGHT = 9810.0  # of water, N/m3
 RAISING = 60.0  # s that it takes to go from one gradient to the next
-
-
-class InputError(Exception):
-    """A table or a scene that is not as it should be."""
-
-
-class ProgramError(Exception):
-    """A program of Suffuse that failed."""
 
 
 # --- Tables --------------------------------------------------------------------------------------------
@@ -41,33 +34,25 @@ def read_table(path, bounds):
     """Rows as (line, run, values by column); `bounds` has the smallest and largest value of each column."""
     columns = ["run", *bounds]
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            reader = csv.reader(file)
-            names = next(reader, [])
-            if names != columns:
-                raise InputError(f"{path}:1: got the columns {','.join(names)}; expected {','.join(columns)}")
-            rows = [(reader.line_num, cells) for cells in reader if cells]
+        names, *rows = read_csv(path) or [[]]
     except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from error
-    if not rows:
-        raise InputError(f"{path}: got no row; expected at least one")
-    return [read_row(f"{path}:{line}", cells, bounds) for line, cells in rows]
+        raise InputError([f"{path}: cannot be read: {error}"]) from error
+    if names != columns:
+        raise InputError([problem(f"{path}:1", "", f"the columns {','.join(names)}", ",".join(columns))])
+    if not any(rows):
+        raise InputError([problem(path, "", "no row", "at least one")])
+    return [read_row(f"{path}:{line}", cells, bounds) for line, cells in enumerate(rows, 2) if cells]
 
 
 def read_row(place, cells, bounds):
     if len(cells) != len(bounds) + 1:
-        raise InputError(f"{place}: got {len(cells)} cells; expected {len(bounds) + 1}")
-    values = {}
+        raise InputError([problem(place, "", f"{len(cells)} cells", str(len(bounds) + 1))])
+    values = {column: number_of(text) for column, text in zip(bounds, cells[1:])}
     for (column, (low, high)), text in zip(bounds.items(), cells[1:]):
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not low <= value <= high or math.isinf(value):
-            raise InputError(f"{place}: {column}: got '{text}'; expected a number from {low:g} to {high:g}")
-        values[column] = value
+        if values[column] is None or not low <= values[column] <= high:
+            raise InputError([problem(place, column, f"'{text}'", f"a number from {low:g} to {high:g}")])
     if not cells[0] or not cells[0].replace("-", "").replace("_", "").isalnum():
-        raise InputError(f"{place}: run: got '{cells[0]}'; expected letters, digits, - or _")
+        raise InputError([problem(place, "run", f"'{cells[0]}'", "letters, digits, - or _")])
     return place, cells[0], values
 
 
@@ -77,7 +62,7 @@ def read_runs(path, time, bounds):
     for place, name, values in read_table(path, {time: (0.0, math.inf), **bounds}):
         rows = runs.setdefault(name, [])
         if values[time] <= (rows[-1][time] if rows else 0.0):
-            raise InputError(f"{place}: {time}: got {values[time]:g}; expected times above 0 that ascend within a run")
+            raise InputError([problem(place, time, f"{values[time]:g}", "times above 0 that ascend within a run")])
         rows.append(values)
     return runs
 
@@ -88,16 +73,14 @@ def read_tests(options):
     gradients = read_runs(options.gradients, "until_hours", {"gradient": (0.0, math.inf)})
     for name, points in measured.items():
         if name not in gradients:
-            raise InputError(f"{options.gradients}: got no row of '{name}', which {options.measured} has")
+            raise InputError([f"{options.gradients}: got no row of '{name}', which {options.measured} has"])
         end = gradients[name][-1]["until_hours"]
         if points[-1]["hours"] > end:
-            raise InputError(f"{options.measured}: {name}: got a point at {points[-1]['hours']:g} h; "
-                             f"expected none after {end:g} h, where its gradients end")
+            raise InputError([problem(options.measured, name, f"a point at {points[-1]['hours']:g} h", f"none after {end:g} h, where its gradients end")])
     if options.fit not in measured:
-        raise InputError(f"--fit: got '{options.fit}'; expected one of {', '.join(measured)}")
+        raise InputError([problem("--fit", "", f"'{options.fit}'", f"one of {', '.join(measured)}")])
     if len(measured[options.fit]) < 2:
-        raise InputError(f"{options.measured}: got one point of '{options.fit}'; "
-                         "two parameters cannot be fitted to fewer than two points")
+        raise InputError([f"{options.measured}: got one point of '{options.fit}'; two parameters cannot be fitted to fewer than two points"])
     return measured, gradients
 
 
@@ -108,21 +91,16 @@ class Specimen:
     """What the search must know of the scene."""
 
     def __init__(self, path):
-        self.path = path
+        self.path, scene = path, read_scene(path)
         try:
-            with open(path, "rb") as file:
-                scene = tomllib.load(file)
             (self.soil, soil), = scene["soil"].items()
             self.height = float(scene["geometry"]["height"])
             self.fines = 1.0 - soil["porosity"] - soil["skeleton_fraction"]
             self.rate = float(soil["erosion"]["rate"])
-        except (OSError, tomllib.TOMLDecodeError) as error:
-            raise InputError(f"{path}: cannot be read: {error}") from error
         except (KeyError, TypeError, ValueError) as error:
-            raise InputError(f"{path}: expected a column of one soil with porosity, skeleton_fraction "
-                             f"and erosion.rate as numbers; {error!r}") from error
+            raise InputError([f"{path}: expected a column of one soil with porosity, skeleton_fraction and erosion.rate as numbers; {error!r}"]) from error
         if not self.rate > 0.0 or not self.fines > 0.0:
-            raise InputError(f"{path}: expected a rate and fines above 0")
+            raise InputError([f"{path}: expected a rate and fines above 0"])
 
 
 def pressures(stages, height):
@@ -150,11 +128,11 @@ class Runner:
             done = subprocess.run([self.programs / program, *arguments], capture_output=True, text=True,
                                   env={**os.environ, "OMP_NUM_THREADS": "1"})
         except OSError as error:
-            raise ProgramError(f"{self.programs / program}: cannot be run: {error}") from error
+            raise NotDone([f"{self.programs / program}: cannot be run: {error}"]) from error
         if done.returncode == 2:
-            raise InputError(done.stderr.strip())
+            raise InputError([done.stderr.strip()])
         if done.returncode != 0:
-            raise ProgramError(f"{program} failed with exit code {done.returncode}:\n{done.stderr.strip()}")
+            raise NotDone([f"{program} failed with exit code {done.returncode}:", done.stderr.strip()])
 
     def run(self, name, stages, end, rate, residual, folder):
         """Computes a test up to `end`, h; returns its results folder."""
@@ -163,8 +141,7 @@ class Runner:
                    f"boundary[0].pressure={pressures(stages, self.specimen.height)}", f"time.end={3600.0 * end:.17g}"]
         case, results = folder / f"{name}.case.h5", folder / f"{name}.results"
         shutil.rmtree(results, ignore_errors=True)
-        self.call("suffuse-mesher", self.specimen.path, *(part for change in changes for part in ("--set", change)),
-                  "-o", case)
+        self.call("suffuse-mesher", self.specimen.path, *set_options(changes), "-o", case)
         self.call("suffuse-solver", case, "-o", results)
         self.runs += 1
         return results
@@ -172,8 +149,7 @@ class Runner:
 
 def fines_lost(results, hours):
     """Per cent of the fines that have left at these hours, by the ledger."""
-    with open(results / "ledger.csv", newline="", encoding="utf-8") as file:
-        rows = [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
+    rows = [{name: float(text) for name, text in row.items()} for row in read_rows(results / "ledger.csv")]
     lost = [100.0 * (row["fines_out"] - row["fines_in"]) / rows[0]["erodible"] for row in rows]
     return numpy.interp([3600.0 * h for h in hours], [row["t"] for row in rows], lost)
 
@@ -213,10 +189,8 @@ def root_mean_square(values):
 
 
 def write_csv(path, names, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(names)
-        writer.writerows([f"{cell:.8g}" if isinstance(cell, float) else cell for cell in row] for row in rows)
+    rows = [[f"{cell:.8g}" if isinstance(cell, float) else cell for cell in row] for row in rows]
+    path.write_text(csv_text([names, *rows]), encoding="utf-8")
 
 
 def work(options):
@@ -252,14 +226,8 @@ def main():
     parser.add_argument("--programs", required=True, metavar="FOLDER")
     parser.add_argument("--out", required=True, metavar="FOLDER")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="changes a key of the scene")
-    try:
-        work(parser.parse_args())
-    except InputError as error:
-        print(f"fit.py: {error}", file=sys.stderr)
-        sys.exit(2)
-    except ProgramError as error:
-        print(f"fit.py: {error}", file=sys.stderr)
-        sys.exit(1)
+    options = parser.parse_args()
+    end_with("fit.py: ", lambda: work(options))
 
 
 if __name__ == "__main__":

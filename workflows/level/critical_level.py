@@ -1,24 +1,20 @@
 #!/usr/bin/python3
-"""At which level does each mechanism begin? `make -C workflows critical-level` calls this, and sweep.sh makes the runs.
+"""At which level does each mechanism begin? `make -C workflows critical-level` calls this.
 
-    critical_level.py prepare SCENE FOLDER      writes FOLDER/table.csv, the sweep's table; prints of which states the
-                                                factor of safety is
-    critical_level.py conclude SCENE FOLDER     writes levels.csv, critical.csv, report.md, levels.svg
-
-`prepare` follows the search from its start, as far as the runs so far answer it, and adds the levels that it needs next. So
-a study that was stopped goes on, and one that is complete adds nothing. BOUNDARY, FROM, TO, SCAN, TOLERANCE_LEVEL, STEADY,
-SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
+Writes table.csv, the sweep's table, levels.csv, critical.csv, report.md and levels.svg. `prepare` follows the search from its
+start, as far as the runs so far answer it, and adds the levels that it needs next. So a study that was stopped goes on, and one
+that is complete adds nothing. BOUNDARY, FROM, TO, SCAN, TOLERANCE_LEVEL, STEADY, SET, FACTOR, REGION and DEEPER come from the
+environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
 """
 
 import dataclasses
 import math
-import sys
 
-from levels import (InputError, call, named_failures, named_warnings, number_in, outcomes, problem, rounded, rows_of_sweep,
-                    said_beside, write_changed, write_table)
-from chart import CURVES, Panel, document
-from assessment import SLOPE, cell, in_order, is_assessed, messages_of, spoken
-from sweep import csv_text
+from levels import (InputError, call, csv_text, named_failures, number_in, outcomes, problem, report, rounded,
+                    rows_of_sweep, said_beside, write_changed, write_table)
+from assessment import SLOPE, in_order, is_assessed, messages_of, spoken
+from common import cell
+from svg import CURVES, Panel, document
 
 SCAN = 5
 TOLERANCE = 0.01  # of TO - FROM
@@ -126,7 +122,6 @@ def prepare(study, folder):
     study.check_levels("FROM", coarse)
     known = outcomes(study, folder, known_of(study, folder))
     write_table(study, folder, table_of(study, replay(coarse, known, tolerance)))
-    print(study.states)
 
 
 # --- Tables and report ---------------------------------------------------------------------------------------
@@ -229,7 +224,7 @@ def draw(path, known, mechanisms, rows):
         if name in begins:
             parts += panel.drop(begins[name], 1.0, style)
     legend = [(words_of(name, curves[name], begins), style) for name, style in zip(curves, CURVES)]
-    write_changed(path, document("Factor of safety of each mechanism against the level", [*parts, *panel.legend(legend)]))
+    write_changed(path, document("Factor of safety of each mechanism against the level", [*parts, *panel.legend(legend)], panel))
 
 
 def conclude(study, folder):
@@ -257,17 +252,8 @@ def conclude(study, folder):
     lines += [f"- {' and '.join(absent)}: no level has a factor."] if absent else []
     lines += [f"- {text}." for text in not_looked_at(folder, rows_known.values(), mechanisms)]
     lines += ["", *beside] if (beside := said_beside(study, folder, rows_known.values(), mechanisms, "Not part of the search")) else []
-    write_changed(folder / "report.md", "\n".join(lines) + "\n")
-    print("\n".join(lines))
-    print(f"Tables and chart are in {folder.resolve()}")
-    for line in named_warnings(folder, wanted) + named_failures(silent):
-        print(f"critical_level.py: {line}", file=sys.stderr)
-    return 1 if silent else 0
-
-
-def main():
-    call("critical_level.py", prepare, conclude)
+    return report(folder, lines, wanted, silent)
 
 
 if __name__ == "__main__":
-    main()
+    call("critical-level", prepare, conclude)

@@ -1,24 +1,20 @@
 #!/usr/bin/python3
-"""How probable is failure at a level? `make -C workflows fragility` calls this, and sweep.sh makes the runs.
+"""How probable is failure at a level? `make -C workflows fragility` calls this.
 
-    fragility.py prepare SCENE FOLDER      writes FOLDER/table.csv, the sweep's table: every draw at every level; prints of
-                                           which states the factor of safety is
-    fragility.py conclude SCENE FOLDER     writes fragility.csv, draws.csv, report.md, fragility.svg
-
-LEVELS, SWEEP, BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1
+Writes table.csv, the sweep's table: every draw at every level, fragility.csv, draws.csv, report.md and fragility.svg. LEVELS, SWEEP, BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1
 if runs have no answer.
 """
 
 import os
-import sys
 
-from levels import (InputError, call, named_failures, named_warnings, outcomes, problem, rounded, rows_of_sweep, said_beside,
+from scipy.stats import beta
+
+from levels import (InputError, call, csv_text, named_failures, outcomes, problem, report, rounded, rows_of_sweep, said_beside,
                     write_changed, write_table)
-from chart import CURVES, Panel, document
-from assessment import EROSION, SLOPE, Outcome, cell, in_order, spoken
-from bounds import SHARE, bounds
+from assessment import EROSION, SLOPE, Outcome, in_order, spoken
+from common import cell
 from runs import MOST_RUNS, read_runs
-from sweep import csv_text
+from svg import CURVES, Panel, document
 
 ANY = "any of them"
 # Erosion beyond a threshold is no breach.
@@ -28,6 +24,18 @@ APART = 7
 ASIDE = 0.01
 # Levels that the axis can name.
 MOST_MARKED = 8
+
+
+SHARE = 0.95  # how often the bounds of a probability hold
+
+
+def bounds(failures, runs):
+    """The interval of probabilities with which so many failures are not unlikely: that of Clopper and Pearson (1934, Biometrika 26,
+    404), which is never too narrow. Its digits do not depend on the version of SciPy."""
+    tail = 0.5 * (1.0 - SHARE)
+    low = 0.0 if failures == 0 else beta.ppf(tail, failures, runs - failures + 1)
+    high = 1.0 if failures == runs else beta.ppf(1.0 - tail, failures + 1, runs - failures)
+    return float(f"{low:.6g}"), float(f"{high:.6g}")
 
 
 def asked_levels():
@@ -68,7 +76,6 @@ def rows_of(study):
 
 def prepare(study, folder):
     write_table(study, folder, rows_of(study)[1])
-    print(study.states)
 
 
 def groups_of(mechanisms):
@@ -119,7 +126,7 @@ def draw_chart(path, table, mechanisms, levels):
         parts += panel.curve([point[:2] for point in points], style)
     parts += panel.legend([(spoken(mechanism), styles[rows]) for mechanism, rows in numbers.items()],
                           ["Mechanisms with the same numbers share a curve."] if len(styles) < len(numbers) else [])
-    write_changed(path, document("Probability of failure of each mechanism against the level", parts))
+    write_changed(path, document("Probability of failure of each mechanism against the level", parts, panel))
 
 
 def conclude(study, folder):
@@ -154,17 +161,8 @@ def conclude(study, folder):
     if SLOPE not in mechanisms:
         lines.append("The slope was not looked at.")
     lines += said_beside(study, folder, rows, mechanisms, "Not counted")
-    write_changed(folder / "report.md", "\n".join(lines) + "\n")
-    print("\n".join(lines))
-    print(f"Tables and chart are in {folder.resolve()}")
-    for line in named_warnings(folder, rows) + named_failures(silent):
-        print(f"fragility.py: {line}", file=sys.stderr)
-    return 1 if silent else 0
-
-
-def main():
-    call("fragility.py", prepare, conclude)
+    return report(folder, lines, rows, silent)
 
 
 if __name__ == "__main__":
-    main()
+    call("fragility", prepare, conclude)

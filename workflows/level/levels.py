@@ -5,19 +5,18 @@ A constant head is replaced by the level. A head that changes in time is stretch
 value is the level: h(t) becomes h(0) + (h(t) - h(0)) (level - h(0)) / (max h - h(0)).
 """
 
-import csv
-import math
 import os
 import pathlib
 import re
 import sys
 import tomllib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "sweep"))
+workflows = pathlib.Path(__file__).resolve().parent.parent
+sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
 from assessment import SLOPE, STATES, outcomes_of, reduction_options, said_of_options, said_of_others, with_absent
-from inputs import write_changed
-from problems import InputError, problem
-from sweep import csv_text, read_csv, refuse_foreign
+from common import (InputError, csv_text, end_with, find_file, folder_of, number_of, problem, read_csv, read_rows, read_scene,
+                    write_changed)
+from sweep import make, refuse_foreign
 
 STEADY_END = 1.0  # s: by then hardly any fines have left
 # A number in a warning; not that of a name or an index, such as soil2 or boundary[0].
@@ -29,11 +28,8 @@ def number_in(variable, default=None):
     text = os.environ.get(variable, "").strip()
     if not text and default is not None:
         return default
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
+    value = number_of(text)
+    if value is None:
         raise InputError([problem(variable, "", f"'{text}'" if text else "nothing", "a number")])
     return value
 
@@ -76,8 +72,8 @@ def is_number(value):
 def pairs_of_file(path):
     """The table of a head in a file with the columns t and head."""
     try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            return [[float(row["t"]), float(row["head"])] for row in csv.DictReader(file, skipinitialspace=True)]
+        names, *rows = [[cell.strip() for cell in row] for row in read_csv(path) if row]
+        return [[float(dict(zip(names, row))[name]) for name in ("t", "head")] for row in rows]
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise InputError([f"{path}: is no table with the columns t (s) and head (m): {error}"]) from None
 
@@ -87,10 +83,7 @@ class Study:
 
     def __init__(self, path):
         self.path = path
-        try:
-            self.scene = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-            raise InputError([f"{path}: cannot be read: {error}"]) from None
+        self.scene = read_scene(path)
         self.own = changes_in("SET")
         self._find_boundary()
         steady = os.environ.get("STEADY", "").strip()
@@ -185,11 +178,7 @@ def write_table(study, folder, rows):
 
 def rows_of_sweep(folder):
     """The rows of the sweep as far as it was made, as dictionaries."""
-    path = folder / "runs" / "sweep.csv"
-    if not path.is_file():
-        return []
-    header, *rows = read_csv(path)
-    return [dict(zip(header, row)) for row in rows]
+    return read_rows(folder / "runs" / "sweep.csv")
 
 
 def outcomes(study, folder, rows):
@@ -236,19 +225,35 @@ def named_warnings(folder, rows):
     return lines
 
 
+def report(folder, lines, rows, silent):
+    """Writes and prints the report, and what the programs said. Returns the exit code."""
+    write_changed(folder / "report.md", "\n".join(lines) + "\n")
+    print("\n".join([*lines, f"Tables and chart are in {folder.resolve()}"]), flush=True)
+    for line in named_warnings(folder, rows) + named_failures(silent):
+        print(f"{pathlib.Path(sys.argv[0]).name}: {line}", file=sys.stderr)
+    return 1 if silent else 0
+
+
 def named_failures(rows):
     """A line for each run that has no answer, ten at most."""
     lines = [f"{row['run']} {row['status']}: {row['message'] or 'has no answer; call make again'}" for row in rows]
     return lines[:10] + ([f"... and {len(lines) - 10} more: see runs/sweep.csv"] if len(lines) > 10 else [])
 
 
-def call(name, prepare, conclude):
-    """NAME.py prepare|conclude SCENE FOLDER."""
-    if len(sys.argv) != 4 or sys.argv[1] not in ("prepare", "conclude"):
-        sys.exit(f"usage: {name} prepare|conclude SCENE FOLDER")
-    try:
-        study = Study(pathlib.Path(sys.argv[2]).absolute())
-        sys.exit((prepare if sys.argv[1] == "prepare" else conclude)(study, pathlib.Path(sys.argv[3])))
-    except InputError as error:
-        print("\n".join(f"{name}: {line}" for line in str(error).splitlines()), file=sys.stderr)
-        sys.exit(2)
+def call(target, prepare, conclude):
+    """The study OUT/TARGET/NAME. Its runs are one sweep, whose table grows round by round: which levels follow depends on the runs
+    before."""
+    def work():
+        study = Study(find_file("SCENE"))
+        if target == "fragility":
+            os.environ["SWEEP"] = str(find_file("SWEEP"))
+        folder, made = folder_of(target, study.path), None
+        prepare(study, folder)
+        while (table := read_csv(folder / "table.csv")) != made:
+            made = table
+            # Soil that fails in a run is an answer, not the end of the study.
+            make(study.path, folder.resolve() / "table.csv", folder / "runs", study.states)
+            prepare(study, folder)
+        return conclude(study, folder)
+
+    end_with(f"{target.replace('-', '_')}.py: ", work)

@@ -1,23 +1,15 @@
-#!/usr/bin/python3
-"""How safe a run is: what assess.sh wrote, as factors of safety. A factor below 1 is a failure.
-
-    assessment.py SCENE SWEEP STATES      prints the options of the strength reduction that REGION and DEEPER ask for
+"""How safe a run is: what run.py wrote, as factors of safety. A factor below 1 is a failure.
 
 A mechanism is a way to fail. Those of `suffuse-post check` have the words of its table; `slope` is the factor of safety
 of the soil, by reduction of its strength.
 """
 
-import csv
 import dataclasses
 import math
 import os
-import pathlib
 import re
-import sys
-import tomllib
 
-from problems import InputError, problem
-from runs import read_runs
+from common import InputError, cell, number_of, problem, read_rows
 
 # Mechanisms that depend on the water level, in the order of tables and charts. Other checks, such as those of filters,
 # follow by their names.
@@ -53,26 +45,8 @@ def in_order(mechanisms):
     return sorted(mechanisms, key=lambda name: (known.get(name, len(known)), name))
 
 
-def number(text):
-    try:
-        value = float(text)
-    except (TypeError, ValueError):
-        return None
-    return None if math.isnan(value) else value
-
-
-def rows_of(path):
-    """Rows of a table; names of columns without their units."""
-    if not path.is_file():
-        return []
-    with open(path, encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
-    names = [re.sub(r"\s*[\[(].*", "", name).strip() for name in rows[0]] if rows else []
-    return [dict(zip(names, row)) for row in rows[1:]]
-
-
 def messages_of(stem):
-    """What assess.sh could not find, and why: `check` or `factor` -> message. `warning` is no reason."""
+    """What run.py could not find, and why: `check` or `factor` -> message. `warning` is no reason."""
     lines = stem.with_name(stem.name + ".assessed").read_text(encoding="utf-8", errors="replace").splitlines()
     found = {}
     for what, _, message in (line.partition(": ") for line in lines):
@@ -94,15 +68,15 @@ def is_assessed(folder, name):
 
 def slope_of(stem):
     """The least factor of the states that were asked for, or None; the message about those without one."""
-    factors = [number(row.get("factor")) for row in rows_of(stem.with_name(stem.name + ".factors.csv"))]
+    factors = [number_of(row.get("factor"), infinite=True) for row in read_rows(stem.with_name(stem.name + ".factors.csv"))]
     return min((factor for factor in factors if factor is not None), default=None), messages_of(stem).get("factor", "")
 
 
 def places_of(stem):
     """The rows of the table of checks: pairs of mechanism and outcome."""
     found = []
-    for row in rows_of(stem.with_name(stem.name + ".check.csv")):
-        factor = number(row.get("factor"))
+    for row in read_rows(stem.with_name(stem.name + ".check.csv")):
+        factor = number_of(row.get("factor"), infinite=True)
         found.append((row["mechanism"], Outcome(factor is not None and factor < 1.0, factor, row.get("where", ""), row.get("clause", ""))))
     return found
 
@@ -119,10 +93,6 @@ def checks_of(stem):
 
 def column_of(mechanism):
     return "factor_" + mechanism.replace("-", "_")
-
-
-def cell(value):
-    return "" if value is None else f"{value:.10g}"
 
 
 def columns_of(folder, name):
@@ -260,21 +230,3 @@ def said_of_options(options):
     said = [f"only {' and '.join(names)} can fail, other soil is elastic"] if names else []
     said += [f"bodies within {value} m of the surface are left out" for option, value in given if option == "--deeper"]
     return ", and ".join(said)
-
-
-def main():
-    scene, table, states = sys.argv[1:]
-    try:
-        keys, _ = read_runs(table)
-        try:
-            found = tomllib.loads(pathlib.Path(scene).read_text(encoding="utf-8-sig"))
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-            raise InputError([f"{scene}: cannot be read: {error}"]) from None
-        print(*reduction_options(found, keys, states))
-    except InputError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
-
-
-if __name__ == "__main__":
-    main()

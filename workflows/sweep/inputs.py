@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a run is made of, in a file STEM.inputs: run.sh makes the run again when this changes.
+"""What a run is made of, in a file STEM.inputs: run.py makes the run again when this changes.
 
     scene /path/weir.toml                     the scene
     set soil.foundation.porosity=0.3          a change of it, as for the mesher's --set
@@ -17,7 +17,8 @@ import re
 import sys
 import tomllib
 
-from problems import InputError
+sys.path.insert(1, str(pathlib.Path(__file__).resolve().parent.parent))
+from common import InputError, write_changed
 
 PROGRAMS = ["suffuse-mesher", "suffuse-solver"]
 QUOTED = re.compile(r'"([^"\n]+)"|\'([^\'\n]+)\'')
@@ -77,23 +78,18 @@ def inputs_of(scene, programs, changes):
     return "\n".join(lines) + "\n"
 
 
-def write_changed(path, text):
-    """Writes a file, unless it has this text already: then it keeps its time."""
-    if path.is_file() and path.read_text(encoding="utf-8", errors="replace") == text:
-        return
-    pending = path.with_name(path.name + ".new")
-    pending.write_text(text, encoding="utf-8")
-    pending.replace(path)
+def write_inputs(scene, programs, stem, changes=()):
+    text = inputs_of(scene, programs, changes)
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    write_changed(stem.with_name(stem.name + ".inputs"), text)
 
 
 def main():
     scene, programs, stem = (pathlib.Path(argument).absolute() for argument in sys.argv[1:4])
     try:
-        text = inputs_of(scene, programs, sys.argv[4:])
+        write_inputs(scene, programs, stem, sys.argv[4:])
     except InputError as error:
         sys.exit(f"inputs.py: {error}")
-    stem.parent.mkdir(parents=True, exist_ok=True)
-    write_changed(stem.with_name(stem.name + ".inputs"), text)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ are left out.
 import csv
 import re
 
-from problems import InputError, problem
+from common import InputError, problem
 from sampling import PARAMETERS, Distribution
 
 MOST_RUNS = 9999

@@ -1,45 +1,29 @@
 #!/usr/bin/python3
-"""Before and after the runs of a sweep; `make -C workflows sweep` calls it, and rows.mk makes the runs in between.
+"""A sweep from its table to its figures, in OUT/sweep/NAME/. make calls it, with its variables in the environment and itself as
+MAKE; its -j holds for the runs, which rows.mk makes.
 
-    sweep.py prepare SCENE SWEEP FOLDER --programs BIN     writes FOLDER/runs.csv and what each run is made of
-    sweep.py conclude FOLDER --programs BIN                writes FOLDER/sweep.csv, cost.csv and figures;
-                                                           without figures if --no-figures is given
-
-With --factor STATES, where STATES says of which states the factor of safety is wanted (assessment.py), sweep.csv has how
-safe each run is. Exit codes: 2 for wrong input; 1 of `conclude` if a run did not end well.
+Writes runs.csv, what each run is made of, sweep.csv, cost.csv and figures. With SWEEP_FOLDER the sweep is in that folder and has no
+figures. With FACTOR=1 it looks at how safe the last state of each run is; FACTOR=all, start and checks: run.py. REGION and
+DEEPER leave soil out. Exit codes: 2 for wrong input; 1 if a run did not end well.
 """
 
-import argparse
 import concurrent.futures
-import csv
-import io
-import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
 
-from assessment import STATES, columns_of, is_assessed
-from inputs import content, inputs_of, write_changed
-from problems import InputError, problem
+here = pathlib.Path(__file__).resolve().parent
+sys.path.insert(1, str(here.parent))
+from assessment import columns_of, is_assessed, reduction_options
+from common import InputError, csv_text, end_with, file_name, find_file, folder_of, problem, programs_of, read_csv, read_scene, run_json, write_changed
+from inputs import content, inputs_of
 from runs import read_runs
 
 # Columns that may differ between runs of the same input; cost.csv has them.
 COST = ["wall_seconds", "memory_bytes"]
 TABULATED = {"done", "failed", "unbalanced"}
 LOST = "fines_lost_percent"
-
-
-def csv_text(rows):
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()
-
-
-def read_csv(path):
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.reader(file))
 
 
 def refuse_foreign(folder, scene, sweep):
@@ -53,23 +37,20 @@ def refuse_foreign(folder, scene, sweep):
     write_changed(sources, expected)
 
 
-def prepare(options):
-    scene = pathlib.Path(options.scene).absolute()
-    folder = pathlib.Path(options.folder)
-    keys, runs = read_runs(options.sweep)
-    refuse_foreign(folder, scene, options.sweep)
-    programs = pathlib.Path(options.programs).absolute()
+def prepare(scene, sweep, folder, programs, states):
+    keys, runs = read_runs(sweep)
+    refuse_foreign(folder, scene, sweep)
     names = [f"{number:04d}" for number in range(1, len(runs) + 1)]
     write_changed(folder / "runs.csv", csv_text([["run", *keys], *([name, *run] for name, run in zip(names, runs))]))
     for name, run in zip(names, runs):
         changes = [f"{key}={value}" for key, value in zip(keys, run) if value]
         (folder / name).mkdir(exist_ok=True)
         write_changed(folder / name / f"{name}.inputs", inputs_of(scene, programs, changes))
-        if options.factor and not (folder / name / f"{name}.status").is_file():
+        if states and not (folder / name / f"{name}.status").is_file():
             (folder / name / f"{name}.assessed").unlink(missing_ok=True)
-    if options.factor:
+    if states:
         # Its date says since when runs are looked at in this way.
-        write_changed(folder / "assess.inputs", f"factor {options.factor}\n{content(programs / 'suffuse-post')}\n")
+        write_changed(folder / "assess.inputs", f"factor {' '.join(states)}\n{content(programs / 'suffuse-post')}\n")
     # Rows that were removed from the table keep their results, but are not made again.
     for inputs in folder.glob("[0-9]*/*.inputs"):
         if inputs.stem not in names:
@@ -115,7 +96,7 @@ def run_tables(folder, names, programs):
     return columns, found
 
 
-def write_tables(folder, programs, factor):
+def write_tables(folder, programs, states):
     """Returns the keys, and the rows of sweep.csv as dictionaries."""
     header, *runs = read_csv(folder / "runs.csv")
     keys = header[1:]
@@ -128,21 +109,19 @@ def write_tables(folder, programs, factor):
         word, message = ends[name]
         row = values.get(name, {}) | dict(zip(header, [name, *cells])) | {"status": word, "message": message}
         rows.append(row)
-        if factor:
+        if states:
             safety = columns_of(folder, name)
             row |= safety
             columns += [column for column in safety if column not in columns]
-        costs.append([name, *costs_of(folder / name / f"{name}.results" / "run.json" if word in TABULATED else None)])
+        costs.append([name, *costs_of(folder / name / f"{name}.results" if word in TABULATED else None)])
     order = [*header, "status", "message", *columns]
     write_changed(folder / "sweep.csv", csv_text([order, *([row.get(column, "") for column in order] for row in rows)]))
     write_changed(folder / "cost.csv", csv_text([["run", *COST], *costs]))
     return keys, rows
 
 
-def costs_of(run_json):
-    if not run_json or not run_json.is_file():
-        return [""] * len(COST)
-    info = json.loads(run_json.read_text(encoding="utf-8"))
+def costs_of(results):
+    info = run_json(results) if results and (results / "run.json").is_file() else {}
     return [info.get(name, "") for name in COST]
 
 
@@ -162,7 +141,7 @@ def figures(folder, keys, rows):
     found = {"over-time": ["--over-time", "fines_out"], "distribution": ["--y", quantity]}
     for key in keys:
         if len(numbers(done, key)) > 1:
-            found["over-" + re.sub(r"[^\w.-]+", "-", key).strip("-")] = ["--x", key, "--y", quantity]
+            found[f"over-{file_name(key)}"] = ["--x", key, "--y", quantity]
     return found
 
 
@@ -183,13 +162,11 @@ def draw(folder, keys, rows, programs):
         return [message for message in pool.map(draw_one, wanted) if message]
 
 
-def conclude(options):
-    folder = pathlib.Path(options.folder)
-    programs = pathlib.Path(options.programs).absolute()
-    keys, rows = write_tables(folder, programs, options.factor)
-    messages = draw(folder, keys, rows, programs) if options.figures else []
+def conclude(folder, programs, states, with_figures):
+    keys, rows = write_tables(folder, programs, states)
+    messages = draw(folder, keys, rows, programs) if with_figures else []
     bad = [row for row in rows if row["status"] != "done"]
-    if options.factor:
+    if states:
         bad += [row | {"status": "not assessed", "message": "call make again"} for row in rows
                 if row["status"] == "done" and not is_assessed(folder, row["run"])]
     messages += [f"{row['run']} {row['status']}: {row['message'] or 'not made'}" for row in bad[:10]]
@@ -197,28 +174,35 @@ def conclude(options):
         messages.append(f"... and {len(bad) - 10} more: see the columns status and message")
     for message in messages:
         print(message, file=sys.stderr)
-    print(f"{len(rows) - len(bad)} of {len(rows)} runs are done; {'table and figures are' if options.figures else 'their table is'} in {folder.resolve()}")
+    print(f"{len(rows) - len(bad)} of {len(rows)} runs are done; {'table and figures are' if with_figures else 'their table is'} in {folder.resolve()}")
     return 1 if bad else 0
 
 
+def make(scene, table, folder, states="", with_figures=False):
+    """Makes the sweep of a table. `states`: of which states the factor of safety is wanted (assessment.py); "" for none. Returns 1
+    if a run did not end well."""
+    programs, arguments = programs_of(), [states] if states else []
+    if os.environ.get("REGION") or os.environ.get("DEEPER"):
+        arguments += reduction_options(read_scene(scene), read_runs(table)[0], states)
+    prepare(scene, table, folder, programs, arguments)
+    variables = {"PROGRAMS": str(programs), "STATES": " ".join(arguments), "RUN": str(here / "run.py")}
+    sys.stdout.flush()
+    # make's job slots are open files. A run that was stopped or killed does not stop the others.
+    subprocess.run([os.environ["MAKE"], "-k", "-C", folder, "-f", here / "rows.mk"], env=os.environ | variables, close_fds=False)
+    return conclude(folder, programs, states, with_figures)
+
+
 def main():
-    parser = argparse.ArgumentParser(description="Before and after the runs of a sweep.")
-    commands = parser.add_subparsers(dest="command", required=True)
-    command = commands.add_parser("prepare")
-    command.add_argument("scene", metavar="SCENE")
-    command.add_argument("sweep", metavar="SWEEP")
-    for command in [command, commands.add_parser("conclude")]:
-        command.add_argument("folder", metavar="FOLDER")
-        command.add_argument("--programs", required=True, metavar="FOLDER")
-        command.add_argument("--factor", choices=STATES)
-    commands.choices["conclude"].add_argument("--no-figures", dest="figures", action="store_false")
-    options = parser.parse_args()
-    try:
-        sys.exit(prepare(options) if options.command == "prepare" else conclude(options))
-    except InputError as error:
-        print("\n".join(f"sweep.py: {line}" for line in str(error).splitlines()), file=sys.stderr)
-        sys.exit(2)
+    if not os.environ.get("SCENE") and not os.environ.get("SWEEP"):
+        os.environ |= {"SCENE": "examples/weir/weir.toml", "SWEEP": "sweep/weir.csv"}
+    scene, table = find_file("SCENE"), find_file("SWEEP")
+    factor = os.environ.get("FACTOR", "")
+    states = {"0": "", "1": "last"}.get(factor, factor)
+    if states not in ("", "last", "all", "start", "checks"):
+        raise InputError([problem("FACTOR", "", f"'{factor}'", "1, all, start or checks")])
+    folder = os.environ.get("SWEEP_FOLDER")
+    return make(scene, table, pathlib.Path(folder) if folder else folder_of("sweep", table), states, not folder)
 
 
 if __name__ == "__main__":
-    main()
+    end_with("", main)

@@ -3,21 +3,9 @@
 # mesh.size meshed again, and those that nothing drives left alone? Arguments go to make (BIN=FOLDER).
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-work=$(mktemp -d)/"with spaces"
-trap 'rm -rf "$(dirname "$work")"' EXIT
-make_arguments=("$@")
-programs=$workflows/../build/release/bin
-for argument in "$@"; do case $argument in BIN=*) programs=${argument#BIN=} ;; esac; done
-. "$workflows/tests/expect.sh"
-mkdir -p "$work/my scenes"
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 cd "$work/my scenes"
 
-# run_make TARGET VARIABLE...: sets `code` to the exit code and writes the output to make.log.
-run_make() {
-  code=0
-  make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" "$@" > "$work/make.log" 2>&1 || code=$?
-}
 # rows RESULTS: time, discharge, low and high of each row.
 rows() { cut -d, -f1,5,33,34 "$1/history.csv" | tail -n +2; }
 # worst RESULTS: how far its discharge is off those of the fine mesh, in per cent of the largest.
@@ -33,7 +21,7 @@ holds() { awk "BEGIN { print ($1) ? \"yes\" : \"no: $1\" }"; }
 # --- A river that rises later ---------------------------------------------------------------------
 cp "$workflows"/adapt/second-weir.* .
 mesher=$programs/suffuse-mesher solver=$programs/suffuse-solver
-"$mesher" second-weir.toml --set mesh.size=0.1 -o fine.case.h5 > "$work/log"
+"$mesher" second-weir.toml --set mesh.size=0.1 -o fine.case.h5 > "$work/mesher.log"
 "$solver" fine.case.h5 --quiet -o fine.results
 
 run_make adapt SCENE=second-weir.toml
@@ -49,23 +37,23 @@ expect 'the discharge of the flood is off by more than 2 %' yes "$(holds "$off >
 run_make adapt SCENE=second-weir.toml OVER=run
 expect 'a mesh for the whole run is made' 0 "$code"
 expect 'it says when least is known' yes \
-  "$(grep -q '^mesh 1: Q = .* m3/s per m at t = 2000 s, when least is known of it, between' "$work/make.log" && echo yes)"
-expect 'and is met' 1 "$(grep -c '^mesh.error = 0.01 is met$' "$work/make.log")"
+  "$(grep -q '^mesh 1: Q = .* m3/s per m at t = 2000 s, when least is known of it, between' "$log" && echo yes)"
+expect 'and is met' 1 "$(grep -c '^mesh.error = 0.01 is met$' "$log")"
 run="$work/o ut/adapt/second-weir.results"
 off=$(worst "$run")
 expect 'the discharge is off by less than 1 % at any time' yes "$(holds "$off < 1")"
 expect 'and the exact one between the bounds' '' "$(paste -d, <(rows "$run") <(rows fine.results) |
   awk -F, '{ exact = ($7 + $8) / 2; if (exact < $3 || exact > $4) print }')"
-elements=$(sed -n 's/^  elements  *//p' "$work/make.log")
+elements=$(sed -n 's/^  elements  *//p' "$log")
 expect 'with less than a tenth of the elements' yes \
-  "$(holds "$elements < 0.1 * $(sed -n 's/^  elements  *//p' "$work/log")")"
-expect 'the table has a row for each mesh' "$(grep -c '^mesh [0-9]*:' "$work/make.log")" \
+  "$(holds "$elements < 0.1 * $(sed -n 's/^  elements  *//p' "$work/mesher.log")")"
+expect 'the table has a row for each mesh' "$(grep -c '^mesh [0-9]*:' "$log")" \
   "$(tail -n +2 "$work/o ut/adapt/second-weir.adapt.csv" | grep -c '^[0-9]*,[0-9.e-]*,[0-9.e-]*,[0-9.e-]*$')"
 expect 'nothing else is left' "$(printf '%s\n' second-weir.{adapt.csv,case.h5,results})" "$(ls "$work/o ut/adapt")"
 
 run_make adapt SCENE=second-weir.toml OVER=night
 expect 'what is over something else is refused' "2 OVER: got 'night'; expected run" \
-  "$code $(grep -o "OVER: got.*run" "$work/make.log")"
+  "$code $(grep -o "OVER: got.*run" "$log")"
 
 # --- An estimate that does not fall, from programs that only say so -----------------------------
 mkdir stub
@@ -79,7 +67,7 @@ echo 'mesh.error = 0.01 is not met: mesh again with suffuse-mesher --sizes stub.
 END
 chmod +x stub/*
 code=0
-"$workflows/adapt.sh" stub stub.toml stub > stub.log 2>&1 || code=$?
+"$workflows/adapt.py" stub stub.toml stub > stub.log 2>&1 || code=$?
 expect 'the loop ends where more elements hardly help' \
   '3 2 mesh.error is not met, and more elements hardly help: the case has the last mesh' \
   "$code $(wc -l < meshes) $(tail -1 stub.log)"
@@ -93,7 +81,7 @@ expect 'the mesher says that studies mesh again' yes \
 run_make study SCENE=plain.toml
 expect 'a study does' '0 done' "$code $(head -1 "$work/o ut/study/plain.status")"
 expect 'on more than one mesh, to 1 %' '1 1' \
-  "$(grep -c '^mesh 2: Q' "$work/make.log") $(grep -c '^mesh.error = 0.01 is met$' "$work/make.log")"
+  "$(grep -c '^mesh 2: Q' "$log") $(grep -c '^mesh.error = 0.01 is met$' "$log")"
 expect 'its run says between which values the discharge lies' yes \
   "$(rows "$work/o ut/study/plain.results" | awk -F, 'NR == 1 { print ($3 > 0 && $4 - $3 < 0.02 * $3 ? "yes" : "no") }')"
 
@@ -102,10 +90,10 @@ sed 's/^bulk_modulus .*/bulk_modulus = 2e6/; s/^end .*/end = 0.05\nscheme = "exp
   plain.toml > explicit.toml
 run_make study SCENE=still.toml
 expect 'still water is run on the mesh that there is' '0 done' "$code $(head -1 "$work/o ut/study/still.status")"
-expect 'which it says' 1 "$(grep -c '^not meshed again: .*: got no flow that heads drive, at t = 0' "$work/make.log")"
+expect 'which it says' 1 "$(grep -c '^not meshed again: .*: got no flow that heads drive, at t = 0' "$log")"
 run_make study SCENE=explicit.toml
 expect 'and so is the explicit scheme' '0 done 0' \
-  "$code $(head -1 "$work/o ut/study/explicit.status") $(grep -c 'meshed again\|mesh again' "$work/make.log")"
+  "$code $(head -1 "$work/o ut/study/explicit.status") $(grep -c 'meshed again\|mesh again' "$log")"
 
 printf '%s\n' mesh.max_elements 200000 15000 > most.csv
 run_make sweep SCENE=plain.toml SWEEP=most.csv
@@ -115,4 +103,4 @@ printf '%s\n' mesh.size 1.0 > size.csv
 run_make sweep SCENE=plain.toml SWEEP=size.csv
 expect 'but not those with a size' '0 0' "$code $(grep -c '^mesh 1' "$work/o ut/sweep/size/0001/0001.log")"
 
-[ "$failures" -eq 0 ] || { echo "$failures of the checks of adapted meshes failed"; exit 1; }
+finish 'adapted meshes'

@@ -4,29 +4,13 @@
 # (BIN=FOLDER, -j2).
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-work=$(mktemp -d)/"with spaces"
-trap 'rm -rf "$(dirname "$work")"' EXIT
-make_arguments=("$@")
-programs=$workflows/../build/release/bin
-for argument in "$@"; do [[ $argument != BIN=* ]] || programs=${argument#BIN=}; done
-. "$workflows/tests/expect.sh"
-mkdir -p "$work/my scenes"
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 cd "$work/my scenes"
 
-# study NAME VARIABLE...: sets `code` to the exit code and `out` to the folder, and writes the output
-# to make.log.
+# study NAME VARIABLE...: also sets `out` to the folder.
 study() {
-  code=0
   out="$work/o ut/convergence/$1"
-  make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" convergence NAME="$@" > "$work/make.log" 2>&1 || code=$?
-}
-said() { grep -o -- "$1" "$work/make.log" | head -1; }
-
-# cells ROW COLUMN...: cells of convergence.csv by the names of their columns.
-cells() {
-  awk -F, -v row="$1" -v wanted="${*:2}" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; n = split(wanted, names, " ") }
-    $1 == row { for (k = 1; k <= n; ++k) printf "%s%s", $at[names[k]], k < n ? " " : "\n" }' "$out/convergence.csv"
+  run_make convergence NAME="$1" "${@:2}"
 }
 
 cp "$workflows/examples/weir/weir.geo" .
@@ -51,20 +35,20 @@ expect 'its runs are a sweep, sizes first, then tolerances' \
 expect 'files' "$(printf '%s\n' convergence.csv flux_out.png flux_out.svg plan.json probe-0-.pressure.png probe-0-.pressure.svg \
   report.md runs settlement_max.png settlement_max.svg table.csv)" "$(ls "$out")"
 expect 'rows' "$(printf '%s\n' output flux_out settlement_max 'probe[0].pressure')" "$(cut -d, -f1 "$out/convergence.csv")"
-expect 'units, and what is in its range' 'm3/s/m yes' "$(cells flux_out unit in_range)"
+expect 'units, and what is in its range' 'm3/s/m yes' "$(cells "$out/convergence.csv" flux_out unit in_range)"
 expect 'values are those of the sweep' same "$(awk -F, 'NR == FNR { if (FNR == 1) { for (i = 1; i <= NF; ++i) if ($i == "flux_out") at = i }
     else if ($1 == "0003") wanted = $at; next }
   FNR == 1 { for (i = 1; i <= NF; ++i) if ($i == "mesh.size 0.05") at = i }
   $1 == "flux_out" { d = $at / wanted - 1; print (d * d < 1e-18 ? "same" : $at " " wanted) }' \
   <(sed 's/"[^"]*"//g' "$out/runs/sweep.csv") "$out/convergence.csv")"
-expect 'an output that is always 0' 'yes constant 0' "$(cells settlement_max in_range said_of_sizes gci_space_percent)"
+expect 'an output that is always 0' 'yes constant 0' "$(cells "$out/convergence.csv" settlement_max in_range said_of_sizes gci_space_percent)"
 expect 'the paragraph is printed' 'The discharge that leaves (flux_out) is' "$(said 'The discharge that leaves (flux_out) is')"
-expect 'and written' same "$([[ $(< "$work/make.log") == *"$(< "$out/report.md")"* ]] && echo same)"
+expect 'and written' same "$([[ $(< "$log") == *"$(< "$out/report.md")"* ]] && echo same)"
 
-before=$(cd "$out" && find . -name '*.status' -printf '%P %T@\n' | sort)
+before=$(statuses "$out")
 cp "$out/convergence.csv" "$work/table"
 study weir "${weir[@]}"
-expect 'a second call makes no run' "$before" "$(cd "$out" && find . -name '*.status' -printf '%P %T@\n' | sort)"
+expect 'a second call makes no run' "$before" "$(statuses "$out")"
 expect 'and the same table' same "$(cmp "$work/table" "$out/convergence.csv" && echo same)"
 
 # A channel grows in a path as wide as an element, and finer elements lose more and more fines.
@@ -72,14 +56,15 @@ cp "$workflows/laboratory/channel.geo" .
 sed 's/^end .*/end = 600.0/; s/^snapshot_every.*/snapshot_every = 600.0/' "$workflows/laboratory/channel.toml" > channel.toml
 study channel SCENE=channel.toml SIZES=0.04,0.02,0.01 OUTPUTS=fines_lost
 expect 'a channel as wide as an element is not in its range: no value and no index' '0 no diverging   ' \
-  "$code $(cells fines_lost in_range said_of_sizes order extrapolated gci_space_percent)"
+  "$code $(cells "$out/convergence.csv" fines_lost in_range said_of_sizes order extrapolated gci_space_percent)"
 expect 'and the paragraph says so' 'The differences between them do not fall as the sizes do. This series is not in its range of convergence, so there is no' \
   "$(said 'The differences between them do not fall as the sizes do. This series is not in its range of convergence, so there is no')"
 
 # refused WHAT MESSAGE SCENE VARIABLE...: also sets `said`.
 refused() {
   code=0
-  said=$(env "${@:4}" /usr/bin/python3 "$workflows/convergence/convergence.py" prepare "$3" "$work/refused" --programs "$programs" 2>&1) || code=$?
+  said=$(env SCENE="$3" OUT_FOLDER="$work/refused" PROGRAMS="$programs" MAKE=false CALLED_FROM="$PWD" "${@:4}" \
+    /usr/bin/python3 "$workflows/convergence/convergence.py" 2>&1) || code=$?
   expect "$1" "2 convergence.py: $2" "$code $(head -1 <<< "$said")"
 }
 refused 'sizes that are no numbers' "SIZES: got 'x'; expected numbers above 0 with commas between them" "a weir.toml" SIZES=0.2,x
@@ -108,4 +93,4 @@ study launched SCENE=step.toml SIZES=0.2,0.1,0.05 LAUNCH=false
 expect 'a scheduler that refuses' '2 0 of 1 runs are done' "$code $(said '0 of 1 runs are done')"
 
 "$workflows/tests/convergence.py" || failures=$((failures + 1))
-[ "$failures" -eq 0 ] || { echo "$failures of the checks of studies of convergence failed"; exit 1; }
+finish 'studies of convergence'

@@ -1,4 +1,13 @@
-# To be sourced by tests. Counts what failed in `failures`.
+# To be sourced by tests of workflows, whose arguments go to make (BIN=FOLDER, -j2). They work in a folder of their own, whose name has
+# spaces; the number of checks that failed is in `failures`.
+workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+work=$scratch/"with spaces"
+mkdir -p "$work/my scenes"
+make_arguments=("$@")
+programs=$workflows/../build/release/bin
+for argument in "$@"; do [[ $argument != BIN=* ]] || programs=${argument#BIN=}; done
 failures=0
 
 # expect WHAT EXPECTED FOUND
@@ -11,3 +20,26 @@ expect() {
     failures=$((failures + 1))
   fi
 }
+
+# finish WHAT: ends the test.
+finish() { [ "$failures" -eq 0 ] || { echo "$failures of the checks of $1 failed"; exit 1; }; }
+
+# run_make TARGET VARIABLE...: sets `code` to the exit code and writes the output to the log.
+log=$scratch/log
+run_make() {
+  code=0
+  make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" "$@" > "$log" 2>&1 || code=$?
+}
+said() { grep -o -- "$1" "$log" | head -1; }
+
+# statuses FOLDER: which runs of a sweep have ended and been looked at, and when.
+statuses() { (cd "$1" && find . \( -name '*.status' -o -name '*.assessed' \) -printf '%P %T@\n' | sort); }
+
+# cells TABLE ROW COLUMN...: cells of the row that begins with ROW, by the names of their columns.
+cells() {
+  awk -F, -v row="$2" -v wanted="${*:3}" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; n = split(wanted, names, " ") }
+    $1 == row { for (k = 1; k <= n; ++k) printf "%s%s", $at[names[k]], k < n ? " " : "\n" }' "$1"
+}
+
+# tree PID: prints the process and all its descendants.
+tree() { echo "$1"; for child in $(pgrep -P "$1"); do tree "$child"; done; }

@@ -11,12 +11,12 @@ import tempfile
 import numpy
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(workflows / folder) for folder in ("sweep", "convergence", "fit")]
+sys.path[:0] = [str(workflows / folder) for folder in ("", "sweep", "convergence", "fit")]
 from estimator import NoRun, derivatives, search, uncertainty
 from expectations import expect, expect_near, finish
 from keys import Key, split_keys, value_in
 from measured import computed, read_measured
-from problems import InputError
+from common import InputError
 
 SEEDS = 20
 FREE = math.inf

@@ -3,25 +3,16 @@
 # wrong input? Works in a folder of its own, whose name has spaces; arguments go to make (BIN=FOLDER, -j2).
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-work=$(mktemp -d)/"with spaces"
-trap 'rm -rf "$(dirname "$work")"' EXIT
-make_arguments=("$@")
-. "$workflows/tests/expect.sh"
-programs=$workflows/../build/release/bin
-for argument in "$@"; do [[ $argument != BIN=* ]] || programs=${argument#BIN=}; done
-mkdir -p "$work/my scenes"
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 cd "$work/my scenes"
 out="$work/o ut/fit/test"
 
 # fit VARIABLE...: sets `code` to the exit code and writes the output to log. Without make's Makefile, which takes seconds to read.
 fit() {
   code=0
-  env SCENE="a column.toml" OUT_FOLDER="$work/o ut" NAME=test MEASURED= KEYS= AGAINST= PROGRAMS="$programs" PYTHON=/usr/bin/python3 MAKE=make LAUNCH= \
-    TOLERANCE=1e-12 "$@" "$workflows/fit/fit.sh" "$PWD" > "$work/log" 2>&1 || code=$?
+  env SCENE="a column.toml" OUT_FOLDER="$work/o ut" NAME=test PROGRAMS="$programs" MAKE=make TOLERANCE=1e-12 CALLED_FROM="$PWD" "$@" \
+    /usr/bin/python3 "$workflows/fit/fit.py" > "$log" 2>&1 || code=$?
 }
-said() { grep -o -- "$1" "$work/log" | head -1; }
-statuses() { (cd "$out" && find . -name '*.status' -printf '%P %T@\n' | sort); }
 
 cp "$workflows/fit/column.geo" .
 sed 's/^end .*/end = 2400.0/; s/^snapshot_every.*/snapshot_every = 2400.0/' "$workflows/fit/column.toml" > "a column.toml"
@@ -42,7 +33,7 @@ keys=(KEYS=soil.sand.erosion.rate,soil.silt.erosion.rate)
 refused() {
   fit "${@:3}"
   local found
-  found=$(grep -m1 '^fit.py: ' "$work/log" | sed "s|$PWD/||g" || true)
+  found=$(grep -m1 '^fit.py: ' "$log" | sed "s|$PWD/||g" || true)
   expect "$1" "2 fit.py: $2" "$code ${found:0:$((${#2} + 8))}"
 }
 refused 'bounds that leave out the start' \
@@ -75,32 +66,26 @@ expect 'a scheduler that refuses' '1 were stopped or not started' "$code $(said 
 
 # --- A fit -------------------------------------------------------------------------------------------------
 
-# cells ROW COLUMN...: cells of fit.csv by the names of their columns.
-cells() {
-  awk -F, -v row="$1" -v wanted="${*:2}" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; n = split(wanted, names, " ") }
-    $1 == row { for (k = 1; k <= n; ++k) printf "%s%s", $at[names[k]], k < n ? " " : "\n" }' "$out/fit.csv"
-}
 # close KEY VALUE: whether the key was found to 1e-4 of its value.
-close() { awk -v found="$(cells "$1" value)" -v true="$2" 'BEGIN { d = found / true - 1; print (d * d < 1e-8 ? "close" : found) }'; }
+close() { awk -v found="$(cells "$out/fit.csv" "$1" value)" -v true="$2" 'BEGIN { d = found / true - 1; print (d * d < 1e-8 ? "close" : found) }'; }
 
-code=0
-make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" fit NAME=test SCENE="a column.toml" "${points[@]}" "${keys[@]}" > "$work/log" 2>&1 || code=$?
+run_make fit NAME=test SCENE="a column.toml" "${points[@]}" "${keys[@]}"
 expect 'a fit of two soils, by make' 0 "$code"
 expect 'a rate that is known, with the drive gradient, to 1e-4' close "$(close soil.sand.erosion.rate 1.2e-4)"
 expect 'and one with the drive power' close "$(close soil.silt.erosion.rate 1.1e-6)"
 expect 'units, and what is said' '1/s logarithm 0.0001 known m3/J logarithm 1e-06 known' \
-  "$(echo $(for soil in sand silt; do cells soil.$soil.erosion.rate unit searched start said; done))"
+  "$(echo $(for soil in sand silt; do cells "$out/fit.csv" soil.$soil.erosion.rate unit searched start said; done))"
 expect 'files' "$(printf '%s\n' boundary.bottom.discharge.png boundary.bottom.discharge.svg correlations.csv fit.csv ledger.fines_out.png \
   ledger.fines_out.svg report.md residuals.csv runs search.csv table.csv table.inputs)" "$(ls "$out")"
 expect 'curves of start and fit, and points' 'fit measured start' \
   "$(echo $(grep -o '>\(fit\|start\|measured\)<' "$out/ledger.fines_out.svg" | tr -d '<>' | sort))"
 expect 'the run of the refused call is taken' 0001 "$(sed -n 2p "$out/search.csv" | cut -d, -f2)"
 expect 'a residual for each point' "$((1 + 2 * ($(wc -l < points.csv) - 1)))" "$(wc -l < "$out/residuals.csv")"
-expect 'the paragraph is printed' same "$([[ $(< "$work/log") == *"$(< "$out/report.md")"* ]] && echo same)"
-before=$(statuses)
+expect 'the paragraph is printed' same "$([[ $(< "$log") == *"$(< "$out/report.md")"* ]] && echo same)"
+before=$(statuses "$out")
 cp "$out/search.csv" "$work/search.csv"
 fit "${points[@]}" "${keys[@]}"
-expect 'a second call makes no run' "$before" "$(statuses)"
+expect 'a second call makes no run' "$before" "$(statuses "$out")"
 expect 'and the same search' same "$(cmp "$work/search.csv" "$out/search.csv" && echo same)"
 
 # A stand-in of the solver fails where the rate is above a bound.
@@ -123,4 +108,4 @@ expect 'the rate is found all the same' close "$(close soil.sand.erosion.rate 1.
 expect 'and are named, with their message' 'failed (the soil is gone)' "$(said 'failed (the soil is gone)')"
 
 "$workflows/tests/fit.py" || failures=$((failures + 1))
-[ "$failures" -eq 0 ] || { echo "$failures of the checks of calibrations failed"; exit 1; }
+finish calibrations

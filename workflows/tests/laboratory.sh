@@ -3,12 +3,8 @@
 # folder of its own; arguments go to make (BIN=FOLDER).
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-. "$workflows/tests/expect.sh"
-programs=../build/release/bin
-for argument in "$@"; do [[ $argument != BIN=* ]] || programs=${argument#BIN=}; done
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
+work=$scratch
 cd "$workflows"
 
 # fit MEASURED GRADIENTS OPTION...: exit code and the last line of what it says.
@@ -16,8 +12,8 @@ fit() {
   local status=0 measured=$1 gradients=$2
   shift 2
   /usr/bin/python3 laboratory/fit.py examples/permeameter/specimen.toml --measured "$measured" --gradients "$gradients" \
-    --fit constant --programs "$programs" --out "$work/out" "$@" > "$work/log" 2>&1 || status=$?
-  echo "$status $(sed "s|$work/||g" "$work/log" | tail -1)"
+    --fit constant --programs "$programs" --out "$work/out" "$@" > "$log" 2>&1 || status=$?
+  echo "$status $(sed "s|$work/||g" "$log" | tail -1)"
 }
 
 # The measured values are exact for a rate of 1.5e-5 1/s and a residual of half of the fines,
@@ -33,7 +29,7 @@ printf '%s\n' run,until_hours,gradient constant,12,5 steps,10,1 steps,20,2 > "$w
 fit "$work/exact.csv" "$work/gradients.csv" > /dev/null
 expect 'rate and residual that are known are found, to half a per cent' 'close' \
   "$(awk '$1 == "rate" { r = $2 / 1.5e-5 - 1 } $1 == "residual" { s = $2 / 0.04875 - 1 }
-       END { print (r * r < 2.5e-5 && s * s < 2.5e-5 && r * r > 0 ? "close" : r " " s) }' "$work/log")"
+       END { print (r * r < 2.5e-5 && s * s < 2.5e-5 && r * r > 0 ? "close" : r " " s) }' "$log")"
 expect 'what they predict of another test is exact to 0.1 per cent points' 'close' \
   "$(awk -F, '$1 == "steps" { d = $5 - $4; print (d * d < 0.01 ? "close" : d) }' "$work/out/fit.csv")"
 cp "$work/out/search.csv" "$work/search.csv"
@@ -63,4 +59,4 @@ refused 'a point after the end' \
 expect 'no such file' '2' "$(fit "$work/none.csv" "$work/gradients.csv" | cut -c1)"
 expect 'a key that the scene does not know' '2' \
   "$(fit "$work/exact.csv" "$work/gradients.csv" --set soil.specimen.colour=red | cut -c1)"
-exit $((failures > 0))
+finish laboratory

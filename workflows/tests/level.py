@@ -9,16 +9,15 @@ import sys
 import tempfile
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(workflows / "sweep"), str(workflows / "level")]
+sys.path[:0] = [str(workflows), str(workflows / "sweep"), str(workflows / "level")]
 from assessment import MECHANISMS as ON_LEVEL
 from assessment import Outcome, checks_of, outcomes_of, reduction_options, said_of_options, said_of_others, with_absent
-from bounds import bounds
-from chart import CURVES, WIDTH
 from critical_level import crossing, draw, replay, search
 from expectations import expect, expect_near, finish
-from fragility import draw_chart, groups_of, with_any
-from levels import Study, changes_in, named_warnings
-from problems import InputError
+from fragility import bounds, draw_chart, groups_of, with_any
+from levels import Study, named_warnings
+from common import InputError
+from svg import CURVES, WIDTH
 
 FROM, TO, SCAN, TOLERANCE = 1.0, 4.0, [1.0, 1.75, 2.5, 3.25, 4.0], 0.03
 

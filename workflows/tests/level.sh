@@ -8,21 +8,8 @@
 # at i = 0.9 / 1.35 i', so at 1.7933 m, and stresses at i = 0.9 / 1.35 (i' + 1) - 1, so at 1.46 m.
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-work=$(mktemp -d)/"with spaces"
-trap 'rm -rf "$(dirname "$work")"' EXIT
-make_arguments=("$@")
-. "$workflows/tests/expect.sh"
-mkdir -p "$work/my scenes"
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 cd "$work/my scenes"
-
-# run_make TARGET VARIABLE...: sets `code` to the exit code and writes the output to make.log.
-run_make() {
-  code=0
-  make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" "$@" > "$work/make.log" 2>&1 || code=$?
-}
-said() { grep -o -- "$1" "$work/make.log" | head -1; }
-statuses() { (cd "$1" && find . -name '*.status' -printf '%P %T@\n' -o -name '*.assessed' -printf '%P %T@\n' | sort); }
 
 # level_of MECHANISM EXACT TOLERANCE: whether critical.csv has the exact level in a bracket that is
 # narrow enough, and the level within a hundredth of the tolerance.
@@ -77,8 +64,8 @@ expect 'a level above TO' 'heave begins above TO = 2 m: its factor is 1.19 there
 # What the mesher warns of is in the logs of the runs.
 run_make critical-level "${column[@]}" FROM=1.6 TO=400 SCAN=2 NAME=high FACTOR=checks
 expect 'warnings of the runs are shown' 'critical_level.py: warning: boundary[0].head: 400 m, and the model lies between 0 and 1 m' \
-  "$(grep -o 'critical_level.py: warning: boundary.* 1 m' "$work/make.log")"
-expect 'at the end' 'critical_level.py: warning' "$(grep -v '^make' "$work/make.log" | tail -1 | grep -o '^critical_level.py: warning')"
+  "$(grep -o 'critical_level.py: warning: boundary.* 1 m' "$log")"
+expect 'at the end' 'critical_level.py: warning' "$(grep -v '^make' "$log" | tail -1 | grep -o '^critical_level.py: warning')"
 
 # Gravel over silt: no filter, whatever the level.
 cat > layers.geo <<'END'
@@ -131,9 +118,9 @@ expect 'the only soil is all soil, a skin that holds helps' 'same more same' \
     'BEGIN { print (a == b ? "same" : a " " b), (c > 1.05 * b ? "more" : c " " b), (d == a ? "same" : d) }')"
 run_make sweep SCENE=lifted.toml SWEEP=head.csv FACTOR=start REGION=soil NAME=refused
 expect 'no such soil' "2 REGION: got 'soil'; expected soils with a strength, with spaces between several: specimen none" \
-  "$code $(grep ^REGION "$work/make.log") $(ls "$work/o ut/sweep/refused" 2> /dev/null || echo none)"
+  "$code $(grep ^REGION "$log") $(ls "$work/o ut/sweep/refused" 2> /dev/null || echo none)"
 run_make sweep SCENE=lifted.toml SWEEP=head.csv DEEPER=1 NAME=refused
-expect 'a depth without a factor' "2 DEEPER: got '1' without FACTOR; expected FACTOR=1, all or start beside it" "$code $(grep ^DEEPER "$work/make.log")"
+expect 'a depth without a factor' "2 DEEPER: got '1' without FACTOR; expected FACTOR=1, all or start beside it" "$code $(grep ^DEEPER "$log")"
 run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.1 TO=1.8 SCAN=2 TOLERANCE_LEVEL=0.7 NAME=skin REGION=specimen DEEPER=0.3
 expect 'the report says what is left out' \
   'Of the slope, only specimen can fail, other soil is elastic, and bodies within 0.3 m of the surface are left out.' "$(said 'Of the slope.*')"
@@ -148,7 +135,7 @@ expect 'a hydrograph' '0 found' "$code $(level_of erosion 1.5 0.02)"
 cp "$out/table.csv" "$work/table"
 run_make critical-level "${column[@]}" FROM=1.4 TO=1.6 NAME=flood
 expect 'the study of another scene is not replaced' '2 same 1' \
-  "$code $(cmp "$work/table" "$out/table.csv" && echo same) $(grep -c 'runs: got the runs of .*flood.toml and .*table.csv; expected another NAME=' "$work/make.log")"
+  "$code $(cmp "$work/table" "$out/table.csv" && echo same) $(grep -c 'runs: got the runs of .*flood.toml and .*table.csv; expected another NAME=' "$log")"
 
 # The same draws at both levels. In a draw erosion begins at H - 1 = threshold.
 printf '%s\n' runs,6 seed,2 sampling,latin-hypercube key,distribution,mean,deviation,min,max \
@@ -180,8 +167,6 @@ rm -rf "$out"
 # One run at a time, killed in the middle.
 (make -C "$workflows" "${make_arguments[@]}" -j1 OUT="$work/o ut" "${fragility[@]}" > /dev/null 2>&1) & caller=$!
 for ((i = 0; i < 600; ++i)); do [ ! -e "$out/runs/0003/0003.status" ] || break; sleep 0.1; done
-# tree PID: prints the process and all its descendants.
-tree() { echo "$1"; for child in $(pgrep -P "$1"); do tree "$child"; done; }
 for pid in $(tree "$caller"); do kill -9 "$pid" 2> /dev/null || true; done
 { wait "$caller" || true; } 2> /dev/null
 expect 'killed before its end' '' "$(ls "$out" | grep fragility || true)"
@@ -193,20 +178,20 @@ done
 printf '%s\n' 'boundary[0].head' 2.0 2.5 > heads.csv
 run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=1
 out="$work/o ut/sweep/heads"
-# cells COLUMN: of sweep.csv, without texts in quotes.
-cells() {
+# column NAME: of sweep.csv, without texts in quotes.
+column() {
   sed 's/"[^"]*"//g' "$out/sweep.csv" |
     awk -F, -v wanted="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == wanted) at = i; next } { printf "%s ", $at }'
 }
-expect 'a sweep that tells how safe its runs are: erosion at i over 0.5' '0 0.5 0.3333333333 ' "$code $(cells factor_erosion)"
-expect 'heave' 'yes' "$(cells factor_heave | awk '{ print ($1 / 1.19 - 1) ^ 2 < 1e-9 && ($2 / 1.19 * 1.5 - 1) ^ 2 < 1e-9 ? "yes" : $0 }')"
-expect 'a state without a factor has the reason' '  no soil has a strength no soil has a strength ' "$(cells factor)$(cells factor_message)"
+expect 'a sweep that tells how safe its runs are: erosion at i over 0.5' '0 0.5 0.3333333333 ' "$code $(column factor_erosion)"
+expect 'heave' 'yes' "$(column factor_heave | awk '{ print ($1 / 1.19 - 1) ^ 2 < 1e-9 && ($2 / 1.19 * 1.5 - 1) ^ 2 < 1e-9 ? "yes" : $0 }')"
+expect 'a state without a factor has the reason' '  no soil has a strength no soil has a strength ' "$(column factor)$(column factor_message)"
 expect 'no column of times' '' "$(head -1 "$out/sweep.csv" | grep -o 'seconds' || true)"
 before=$(statuses "$out")
 run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=1
 expect 'a second call makes nothing' "$before" "$(statuses "$out")"
 run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=2
-expect 'an unknown FACTOR' "2 FACTOR: got '2'; expected 1, all, start or checks" "$code $(grep ^FACTOR "$work/make.log")"
+expect 'an unknown FACTOR' "2 FACTOR: got '2'; expected 1, all, start or checks" "$code $(grep ^FACTOR "$log")"
 run_make sweep SCENE="a column.toml" SWEEP=heads.csv
 expect 'without FACTOR no such columns' '0 ' "$code $(head -1 "$out/sweep.csv" | grep -o 'factor' || true)"
 
@@ -214,7 +199,7 @@ refused() {
   local what=$1 message=$2
   shift 2
   run_make "$@" NAME=refused
-  expect "$what" "2 $message" "$code $(grep -o 'critical_level.py: .*\|fragility.py: .*' "$work/make.log" | head -1)"
+  expect "$what" "2 $message" "$code $(grep -o 'critical_level.py: .*\|fragility.py: .*' "$log" | head -1)"
 }
 refused 'FROM above TO' 'critical_level.py: FROM: got 3, and TO=1; expected a level below TO' critical-level "${column[@]}" FROM=3 TO=1
 refused 'no TO' 'critical_level.py: TO: got nothing; expected a number' critical-level "${column[@]}" FROM=3
@@ -236,4 +221,4 @@ got 2; expected a number with 0 < n_0 < 1" \
   critical-level "${column[@]}" FROM=1.1 TO=3 SCAN=2 SET=soil.specimen.porosity=2
 
 "$workflows/tests/level.py" || failures=$((failures + 1))
-[ "$failures" -eq 0 ] || { echo "$failures of the checks of levels failed"; exit 1; }
+finish levels

@@ -7,9 +7,10 @@ import statistics
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "sweep"))
+workflows = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(workflows), str(workflows / "sweep")]
 from expectations import expect, expect_near, finish
-from problems import InputError
+from common import InputError
 from runs import read_runs
 from sampling import Distribution
 

@@ -60,7 +60,7 @@ if [ "${1:-}" = inside ]; then
   killed=0
   for ((round = 1; round <= 4; ++round)); do
     wait_for $((runs * round / 10))
-    # Kills a run, a job, and the process above run.sh that starts a job, after which the job is
+    # Kills a run, a job, and the process above run.py that starts a job, after which the job is
     # cancelled.
     ! solver=$(one_solver) || ! kill -9 "$solver" 2> /dev/null || killed=$((killed + 1))
     ! solver=$(one_solver) || ! job=$(job_of "$solver") || ! scancel "$job" || killed=$((killed + 1))

@@ -3,19 +3,9 @@
 # a folder of its own, whose name has spaces; arguments go to make (BIN=FOLDER, -j2).
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-work=$(mktemp -d)/"with spaces"
-trap 'rm -rf "$(dirname "$work")"' EXIT
-make_arguments=("$@")
-. "$workflows/tests/expect.sh"
-mkdir -p "$work/my scenes"
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 cd "$work/my scenes"
 
-# run_make TARGET VARIABLE...: sets `code` to the exit code and writes the output to make.log.
-run_make() {
-  code=0
-  make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" "$@" > "$work/make.log" 2>&1 || code=$?
-}
 run_sweep() { run_make sweep SCENE="a column.toml" SWEEP="of rates.csv" "$@"; }
 
 # column N...: these columns of the table, without texts in quotes.
@@ -45,7 +35,7 @@ expect 'the message is in the table' \
   '--set soil.specimen.erosion.rate=-1.0: soil.specimen.erosion.rate: got -1.0; expected' \
   "$(grep ^0003 "$out/sweep.csv" | grep -o -- '--set.*expected')"
 expect 'and shown, with the count' $'0003 refused: --set soil.specimen.erosion.rate=-1.0\n3 of 4 runs are done' \
-  "$(grep -o '^0003 refused: --set[^:]*\|^[0-9]* of 4 runs are done' "$work/make.log" | sort)"
+  "$(grep -o '^0003 refused: --set[^:]*\|^[0-9]* of 4 runs are done' "$log" | sort)"
 expect 'columns: the run, the keys, how it ended, what suffuse-post says of it' \
   'run,soil.specimen.erosion.rate,boundary[0].pressure,status,message,formulation,law,rate' \
   "$(head -1 "$out/sweep.csv" | cut -d, -f1-8)"
@@ -82,8 +72,6 @@ for ((i = 0; i < 1200 && ${#orphan} == 0; ++i)); do
     case $(readlink "/proc/$pid/cwd") in "$out"/*) kill -STOP "$pid" && orphan=$pid ;; esac
   done
 done
-# tree PID: prints the process and all its descendants.
-tree() { echo "$1"; for child in $(pgrep -P "$1"); do tree "$child"; done; }
 for pid in $(tree "$caller"); do [ "$pid" = "$orphan" ] || kill -9 "$pid" 2> /dev/null || true; done
 wait "$caller" 2> /dev/null || true
 run_sweep & caller=$!
@@ -112,12 +100,12 @@ expect 'runs can be sampled' '0 4 3' \
   "$code $(wc -l < "$work/o ut/sweep/an other/runs.csv") $(grep -c '^000.,0\.[23]' "$work/o ut/sweep/an other/runs.csv")"
 run_make sweep SCENE="$workflows/stress/kill.toml" SWEEP=sampled.csv NAME="an other"
 expect 'the sweep of another scene is not replaced' '2 1' \
-  "$code $(grep -c 'an other: got the runs of .*a column.toml and .*sampled.csv; expected another NAME=' "$work/make.log")"
+  "$code $(grep -c 'an other: got the runs of .*a column.toml and .*sampled.csv; expected another NAME=' "$log")"
 run_make sweep SCENE="a column.toml"
 expect 'without a table' 'SWEEP: got nothing; expected a file: make -C workflows TARGET SWEEP=FILE' \
-  "$(grep ^SWEEP "$work/make.log")"
+  "$(grep ^SWEEP "$log")"
 run_make sweep SCENE=none.toml SWEEP=sampled.csv
-expect 'no such scene' "SCENE: got 'none.toml'; there is no such file, seen from $PWD" "$(grep ^SCENE "$work/make.log")"
+expect 'no such scene' "SCENE: got 'none.toml'; there is no such file, seen from $PWD" "$(grep ^SCENE "$log")"
 run_make sweep SCENE="a column.toml" SWEEP="of rates.csv" LAUNCH=false NAME=launched
 expect 'a scheduler that refuses' "2 $(printf '%s\n' unfinished unfinished)" \
   "$code $(sed 1d "$work/o ut/sweep/launched/sweep.csv" | sed 's/"[^"]*"//g' | cut -d, -f4)"
@@ -128,4 +116,4 @@ expect 'a study of a scene with spaces' "0 $(printf '%s\n' 'a column.case.h5' 'a
   'a column.porosity.svg' 'a column.results' 'a column.status')" "$code $(ls "$work/o ut/study")"
 
 "$workflows/tests/sampling.py" || failures=$((failures + 1))
-[ "$failures" -eq 0 ] || { echo "$failures of the checks of sweeps failed"; exit 1; }
+finish sweeps

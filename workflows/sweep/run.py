@@ -1,0 +1,140 @@
+#!/usr/bin/python3
+"""One run: mesh, solve, ledger; and how safe it is. It goes on where an earlier call was stopped, and does nothing if an earlier call
+reached an end.
+
+    run.py PROGRAMS STEM TOLERANCE [STATES [OPTION...]]
+
+STEM.inputs lists the inputs of the run (inputs.py). Makes STEM.case.h5, STEM.results/, STEM.ledger.csv, STEM.log, and STEM.status when the
+run ends by itself: a word, then the messages. `done`: to the end, and every kilogram is accounted for; `refused`: the input is wrong;
+`failed`: the computation could not go on; `unbalanced`: a residual of the ledger is above TOLERANCE. Then the exit code is 0, whatever the
+word. Otherwise it is that of the program that was stopped or could not use a file, and the next call goes on.
+
+STATES says of which states the factor of safety is wanted: start, last, all, or checks for none; OPTIONs are those of the strength reduction.
+Then there are also STEM.check.csv and STEM.factors.csv, where there is something to write, and STEM.assessed at the end: lines `check: MESSAGE`
+and `factor: MESSAGE`, why there is no such number, and `warning: MESSAGE`.
+
+PROGRESS=1 is for a scene of one's own: it shows the messages of the programs instead of keeping them in STEM.log. There is a status then only
+if the run is done; the exit code is 2 if it was refused, and 3 if it failed or is unbalanced.
+"""
+
+import fcntl
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+
+programs, stem, tolerance, *safety = sys.argv[1:]
+programs, name, alone = os.path.abspath(programs), os.path.basename(stem), bool(os.environ.get("PROGRESS"))
+adapt = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "adapt.py")
+os.chdir(os.path.dirname(stem) or ".")
+inputs, status, case, results, ledger, assessed = (f"{name}.{end}" for end in ("inputs", "status", "case.h5", "results", "ledger.csv", "assessed"))
+started, messages = f".{name}.started", f".{name}.messages"  # the inputs of the case, and what the last program said
+
+
+def read(path):
+    with open(path, encoding="utf-8", errors="replace") as file:
+        return file.read()
+
+
+def write(path, text):
+    with open(f"{path}.new", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(f"{path}.new", path)
+
+
+def remove(*paths):
+    for path in filter(os.path.exists, paths):
+        os.unlink(path)
+
+
+def is_newer(path, other):
+    return os.path.exists(path) and (not os.path.exists(other) or os.stat(path).st_mtime_ns > os.stat(other).st_mtime_ns)
+
+
+def call(program, *arguments, **streams):
+    """Runs a program, which inherits the lock. Its exit code, after which this script goes on, and what it said where that is caught."""
+    ended = subprocess.run([os.path.join(programs, program), *arguments], close_fds=False, **streams)
+    code = ended.returncode if ended.returncode >= 0 else 128 - ended.returncode
+    if code not in (0, 2, 3):
+        said = f"stopped with exit code {code} of {os.path.basename(program)}"
+        with open(messages, "a", encoding="utf-8") as file:
+            print(said, file=file)
+        print(name, said)
+        sys.exit(code)
+    return code, ended.stderr
+
+
+def steps():
+    """Program, the word for its exit code 3, arguments."""
+    text = read(inputs)
+    if not (os.path.exists(case) and os.path.exists(started) and read(started) == text):
+        lines = [line.partition(" ") for line in text.splitlines()]
+        (scene,), changes = ([rest for word, _, rest in lines if word == wanted] for wanted in ("scene", "set"))
+        options = [part for change in changes for part in ("--set", change)]
+        remove(started)  # until the case is whole, an earlier one fits no inputs
+        again = [rest for word, _, rest in lines if word == "adapt"]
+        if again:
+            yield adapt, "failed", *["--by-default"] * bool(again[0]), programs, scene, name, *options
+        else:
+            yield "suffuse-mesher", "refused", scene, *options, "-o", case
+        shutil.rmtree(results, ignore_errors=True)
+        remove(ledger)
+        write(started, text)
+    yield "suffuse-solver", "failed", case, "-o", results, *["--quiet"] * (not alone), "--resume"
+    yield "suffuse-post", "unbalanced", "ledger", results, "--csv", ledger, "--tolerance", tolerance
+
+
+def run(log):
+    """The word of the status."""
+    for program, word, *arguments in steps():
+        if alone:
+            code, _ = call(program, *arguments)
+        else:
+            with open(messages, "w", encoding="utf-8") as said:
+                code, _ = call(program, *arguments, stdout=log, stderr=said)
+            log.write(read(messages))
+            log.flush()
+        if code:
+            return "refused" if code == 2 else word
+    return "done"
+
+
+def make():
+    write(messages, "")
+    word = run(None if alone else open(f"{name}.log", "w", encoding="utf-8"))
+    if alone and word != "done":
+        remove(status)
+        sys.exit(2 if word == "refused" else 3)
+    write(status, f"{word}\n{read(messages)}")
+    print(name, word)
+
+
+def assess(states, *options):
+    # A table of an earlier state must not stay where the new state has none.
+    remove(f"{name}.check.csv", f"{name}.factors.csv", assessed)
+    has_state, found = os.path.exists(f"{results}/run.json"), ""  # a run that failed at its start has no state
+    asked = [("check", "suffuse-post", "check", results, "--csv", f"{name}.check.csv")] if has_state else []
+    if states != "checks" and not read(status).startswith("refused") and (has_state or states == "start"):
+        state = {"last": ["--state", results], "all": ["--state", results, "--time", "all"]}.get(states, [])
+        asked.append(("factor", "suffuse-solver", case, "--strength-reduction", *state, *options, "--quiet", "-o", f"{name}.factors.csv"))
+    for what, program, *arguments in asked:  # the first error of each program, and its warnings
+        code, said = call(program, *arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        warnings = [line for line in said.splitlines() if ": warning: " in line]
+        found += "".join(re.sub("^.*: warning: ", "warning: ", line) + "\n" for line in warnings)
+        if code:
+            found += f"{what}: {next((line for line in said.splitlines() if line and line not in warnings), '')}\n"
+    write(assessed, found)
+
+
+# A program goes on when make above it is killed. Programs inherit the lock, so this waits for them.
+lock = os.open(f".{name}.lock", os.O_RDWR | os.O_CREAT, 0o666)
+os.set_inheritable(lock, True)
+fcntl.flock(lock, fcntl.LOCK_EX)
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # the solver still writes its checkpoint
+    signal.signal(number, lambda *_: None)
+if not is_newer(status, inputs):
+    make()
+if safety and not (is_newer(assessed, status) and is_newer(assessed, "../assess.inputs")):
+    assess(*safety)

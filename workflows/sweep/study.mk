@@ -1,0 +1,19 @@
+# A scene of one's own, and sweeps.
+#>   study SCENE=FILE   mesh, solve, ledger, figures and a report of any scene   -> workflows/out/study/
+#>   sweep SCENE=FILE SWEEP=FILE.csv   a run for each row of a table of keys, or of values drawn from distributions: one
+#>                      table of all, figures over the keys; without files a weir   -> workflows/out/sweep/
+
+# Paths may have spaces here, so scripts do the work, with these variables in the environment. -C changes the folder but not PWD:
+# a relative path is relative to the folder where make was called.
+$(runs_goals): export PROGRAMS    := $(BIN)
+$(runs_goals): export CALLED_FROM := $(PWD)
+$(foreach name,PYTHON TOLERANCE SCENE SWEEP NAME LAUNCH FACTOR REGION DEEPER OUTPUTS SIZES TOLERANCES MEASURED KEYS AGAINST OVER \
+  BOUNDARY FROM TO LEVELS SCAN TOLERANCE_LEVEL STEADY SET,$(eval $(runs_goals): export $(name) := $$($(name))))
+$(runs_goals): $(if $(build_step),$(mesher) $(solver) $(post))
+
+.PHONY: study sweep
+study:
+	@$(PYTHON) sweep/study.py
+
+sweep:
+	@MAKE='$(MAKE)' $(PYTHON) sweep/sweep.py
