@@ -33,18 +33,23 @@ test: provision
 # Tests that need optimised programs: numbers, pictures and times. All other tests run only with
 # sanitizers; RELEASE_TESTS=all runs them here too.
 release_labels := verification sanitized post timing install ranks
-# Eight verifications take 30 % of the time of all; their parts have shorter tests. RELEASE_TESTS=all runs them.
-long_verifications := Bank.EndsInItsLastEquilibriumWhereTheSceneSaysSo Consolidation.LargeStrain \
-  ErosionAndDeposition.BalanceInDoublePoint InfiniteSlope.FailsWhenItsFrictionHasFallenWithItsFines \
-  Levee.KeepsItsMassesWhateverHappens RectangularDam.WithASeepageFaceLetsThroughCharnysDischarge \
-  Strip.OnSoilWithoutDilationHasAFactorThatTheMeshHardlyChanges Trial.IsDecidedInPseudoTimeAsByNewtonsMethod
+# These take a third of the time of all; other tests cover their parts. RELEASE_TESTS=all runs them.
+long_tests := $(addprefix verification_test.,Bank.EndsInItsLastEquilibriumWhereTheSceneSaysSo Consolidation.LargeStrain \
+    ErodingOedometer.TheSameWithLiquidPoints ErosionAndDeposition.BalanceInDoublePoint \
+    InfiniteSlope.FailsWhenItsFrictionHasFallenWithItsFines Levee.KeepsItsMassesWhateverHappens \
+    RectangularDam.WithASeepageFaceLetsThroughCharnysDischarge RectangularDam.WithSuctionLetsThroughTheExactDischarge \
+    SpaceBank.GoesOnFromWithinItsSlide Strip.OnSoilWithoutDilationHasAFactorThatTheMeshHardlyChanges \
+    Trial.IsDecidedInPseudoTimeAsByNewtonsMethod) \
+  $(addprefix verification_of_parts_test.Formulations/ExtrudedScene.TendsToTheSameAsThePlaneOne/,SinglePoint DoublePoint) \
+  solver_process_long_test.Modes/Determinism.StepsEndOnOutputs/moving_soil_implicit \
+  $(foreach ranks,4 5,ranks_test_on_$(ranks) same_files_basin_on_$(ranks)) near_files_rest_on_4 same_files_points_on_5
 .PHONY: build-tests test-release
 build-tests: provision
 	@$(call build_preset,release,$(if $(RELEASE_TESTS),,--target programs suffuse-stress suffuse-studies \
 	  $(addprefix tests_,$(release_labels))))
 test-release: build-tests
 	@$(call run_ctest,release,$(if $(RELEASE_TESTS),,-L '$(subst $(space),|,$(release_labels))' \
-	  -E '^verification_test[.]($(subst $(space),|,$(strip $(long_verifications))))$$'))
+	  -E '^($(subst $(space),|,$(strip $(long_tests))))$$'))
 
 # Tests of parts of the mesher and the solver, and the verifications that tests/verification
 # selects. SANITIZED_TESTS=all also runs the other verifications, the tests of the post stage and
@@ -52,7 +57,7 @@ test-release: build-tests
 # (SUFFUSE_SANITIZE_ALL of ../CMakeLists.txt).
 sanitized_labels := quick sanitized
 optimised_suites := resume_test.Modes/ResumedVariant resume_test.InSpace/ResumedVariant resume_test.ResumedRun \
-  resume_test.Stage resume_test.Modes/Stages resume_test.FromMovedSoil verification_of_parts_test.Formulations/ExtrudedScene
+  $(addprefix resume_test.,Stage Modes/Stages FromMovedSoil FromEarlierOnce MeshAgain Construction) verification_of_parts_test.Formulations/ExtrudedScene
 sanitized_preset := sanitize$(if $(SANITIZED_TESTS),-all)
 .PHONY: build-sanitize test-sanitize
 build-sanitize: provision
