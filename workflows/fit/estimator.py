@@ -24,7 +24,11 @@ WITH_ONE, WITH_ALL = 0.99, 0.9999
 # Singular values below this share of the largest are 0.
 SINGULAR = 1e-6
 NEAR_BOUND = 0.1 * STEP
-
+# One-sided responses of an output that differ by more than this share of their mean have a kink between them. An output
+# counts for a key if its response is above this share of that of all outputs.
+KINK, COUNTS = 0.5, 0.1
+# The misfit has a corner if it rises to both sides of the best value, by slopes above this share of a standard error.
+CORNER = 0.5
 
 # The search ends where a step would move the result by less than this share of its standard errors.
 CLOSE = 1e-3
@@ -65,8 +69,15 @@ def is_close(matrix, residuals):
     return (lowered @ lowered) / keys < CLOSE**2 * rest / (count - keys)
 
 
+@dataclasses.dataclass
+class Derivatives:
+    matrix: numpy.ndarray
+    failed: list  # numbers of keys whose runs failed on both sides: their column is 0
+    halves: list  # of each key the derivatives to larger and to smaller values, None where one of the two is missing
+
+
 def derivatives(evaluate, low, high, x):
-    """The matrix of derivatives, and the numbers of keys whose runs failed on both sides: their column is 0.
+    """The derivatives of the residuals.
 
     Differences are central, so that the last steps of the search lower the misfit by what they promise. They are
     one-sided at a bound, and where one of the two runs failed.
@@ -79,14 +90,72 @@ def derivatives(evaluate, low, high, x):
     base, *values = evaluate(points, "derivative")
     found = {side: value for side, value in zip(sides, values) if value is not None}
     columns = numpy.zeros((len(base), len(x)))
-    failed = []
+    failed, halves = [], [None] * len(x)
     for j in range(len(x)):
-        width = STEP * sum(side in found for side in ((j, 1), (j, -1)))
-        if width:
-            columns[:, j] = (found.get((j, 1), base) - found.get((j, -1), base)) / width
-        else:
+        above, below = found.get((j, 1)), found.get((j, -1))
+        width = STEP * ((above is not None) + (below is not None))
+        if not width:
             failed.append(j)
-    return columns, failed
+            continue
+        columns[:, j] = ((base if above is None else above) - (base if below is None else below)) / width
+        if width > 1.5 * STEP:
+            halves[j] = ((above - base) / STEP, (base - below) / STEP)
+    return Derivatives(columns, failed, halves)
+
+
+@dataclasses.dataclass
+class Kink:
+    """Of a key whose larger and smaller values act in another way. `output`: the number of the output that shows it, and how much it
+    responds to larger values and to smaller ones; None where only the misfit has a corner."""
+
+    output: int = None
+    above: float = 0.0
+    below: float = 0.0
+
+
+def output_with_kink(halves, parts):
+    """The kink of the output that responds most among those with one, or None. `halves`: the responses to larger and to smaller
+    values, over the change of the key. `parts`: the places of each output in the residuals."""
+    above, below = halves
+    size = 0.5 * (numpy.linalg.norm(above) + numpy.linalg.norm(below))
+    kinks = []
+    for output, at in enumerate(parts):
+        up, down = numpy.linalg.norm(above[at]), numpy.linalg.norm(below[at])
+        mean = 0.5 * (up + down)
+        if mean > COUNTS * size and numpy.linalg.norm(above[at] - below[at]) > KINK * mean:
+            kinks.append((mean, Kink(output, up, down)))
+    return max(kinks, key=lambda kink: kink[0])[1] if kinks else None
+
+
+def has_corner(halves, residuals, scale):
+    """Whether the sum of squares rises to both sides at once; a smooth one has no slope where it is least. Half of the slope is
+    taken over the standard error of a key that is fitted alone. `scale`: the size of a residual that is expected."""
+    slopes = [(half @ residuals) / numpy.linalg.norm(half) for half in halves if numpy.any(half)]
+    return len(slopes) == 2 and slopes[0] > CORNER * scale and slopes[1] < -CORNER * scale
+
+
+def kink_of(halves, residuals, parts, scale):
+    """The kink at the best value of a key, or None."""
+    return output_with_kink(halves, parts) or (Kink() if has_corner(halves, residuals, scale) else None)
+
+
+def mark_not_linear(evaluate, low, high, found, known, parts):
+    """Compares the responses up to both ends of the 95 % intervals, and marks keys of which they differ. Intervals within the
+    step of the derivatives are skipped, as kink_of has looked there."""
+    half = known.quantile * known.error
+    keys = [j for j, said in enumerate(known.said) if said == "known" and half[j] > STEP
+            and low[j] <= found.x[j] - half[j] and found.x[j] + half[j] <= high[j]]
+    points = []
+    for j in keys:
+        for sign in (1, -1):
+            points.append(numpy.array(found.x))
+            points[-1][j] += sign * half[j]
+    values = evaluate(points, "interval") if points else []
+    for j, above, below in zip(keys, values[::2], values[1::2]):
+        if above is not None and below is not None:
+            kink = output_with_kink([(above - found.residuals) / half[j], (found.residuals - below) / half[j]], parts)
+            if kink:
+                known.said[j], known.kinks[j] = "not linear", kink
 
 
 def other_starts(logarithmic, low, high):
@@ -116,7 +185,7 @@ def search(evaluate, logarithmic, low, high, of_constant):
         return numpy.full(count, numpy.inf) if residuals is None else residuals
 
     def jac(x):
-        matrix, (residuals,) = derivatives(evaluate, low, high, x)[0], evaluate([x], "step")
+        matrix, (residuals,) = derivatives(evaluate, low, high, x).matrix, evaluate([x], "step")
         if is_close(matrix, residuals):
             raise Converged(x, residuals)
         return matrix
@@ -152,7 +221,7 @@ def search(evaluate, logarithmic, low, high, of_constant):
 
 @dataclasses.dataclass
 class Known:
-    """How well the keys are known. `said[j]` is "known", or says why `error[j]` is NaN."""
+    """How well the keys are known. `said[j]` is "known", says why `error[j]` is NaN, or is "not linear" where it is doubtful."""
 
     said: list
     error: numpy.ndarray  # standard error of x
@@ -160,14 +229,18 @@ class Known:
     correlations: numpy.ndarray  # NaN for keys that are not in them
     with_whom: list  # of a key that cannot be told apart: the number of the other key, None if it takes several
     misfit: float  # root mean square of residuals over degrees of freedom; 1 is expected with known deviations
+    kinks: dict  # number of a key -> Kink, where said is "kink" or "not linear"
 
 
-def uncertainty(jacobian, residuals, negligible, has_deviations, failed=(), at_bound=()):
-    """`negligible`: changes of residuals that are round-off. Keys at a bound count as given."""
+def uncertainty(found, residuals, negligible, has_deviations, at_bound=(), parts=None):
+    """`found`: the derivatives. `negligible`: changes of residuals that are round-off. Keys at a bound count as given. `parts`:
+    the places of each output in the residuals."""
+    jacobian, kinks = found.matrix, {}
     count, keys = jacobian.shape
+    parts = [numpy.arange(count)] if parts is None else parts
     said = ["known"] * keys
     for j in range(keys):
-        if j in failed:
+        if j in found.failed:
             said[j] = "runs failed"
         elif numpy.all(numpy.abs(jacobian[:, j]) * STEP <= negligible):
             said[j] = "no response"
@@ -177,6 +250,7 @@ def uncertainty(jacobian, residuals, negligible, has_deviations, failed=(), at_b
     error, correlations, with_whom = numpy.full(keys, numpy.nan), numpy.full((keys, keys), numpy.nan), [None] * keys
     freedom = count - len(used)
     misfit = math.sqrt(sum_of_squares(residuals) / freedom) if freedom > 0 else math.nan
+    scale = max(1.0, misfit) if has_deviations and freedom > 0 else 1.0 if has_deviations else misfit
     quantile = float(ndtri(0.975) if has_deviations else stdtrit(freedom, 0.975) if freedom > 0 else math.nan)
     if used:
         lengths = numpy.linalg.norm(jacobian[:, used], axis=0)
@@ -196,8 +270,10 @@ def uncertainty(jacobian, residuals, negligible, has_deviations, failed=(), at_b
             if with_one > WITH_ONE or with_all > WITH_ALL:
                 said[j] = "not told apart"
                 with_whom[j] = other if with_one > WITH_ONE else None
-            elif has_deviations or freedom > 0:
-                error[j] = deviations[k] / lengths[k] * (1.0 if has_deviations else misfit)
-            else:
+            elif not has_deviations and freedom <= 0:
                 said[j] = "as many keys as points"
-    return Known(said, error, quantile, correlations, with_whom, misfit)
+            elif found.halves[j] and (kink := kink_of(found.halves[j], residuals, parts, scale)):
+                said[j], kinks[j] = "kink", kink
+            else:
+                error[j] = deviations[k] / lengths[k] * (1.0 if has_deviations else misfit)
+    return Known(said, error, quantile, correlations, with_whom, misfit, kinks)

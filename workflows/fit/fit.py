@@ -19,7 +19,7 @@ from scipy.special import chdtrc
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep"), str(workflows / "convergence")]
 from common import InputError, NotDone, cell, csv_text, draw_curves, end_with, file_name, find_file, folder_of, programs_of, run_json, write_changed
-from estimator import NEAR_BOUND, POOR, NoRun, derivatives, search, uncertainty
+from estimator import NEAR_BOUND, POOR, NoRun, derivatives, mark_not_linear, search, uncertainty
 from keys import is_number, read_keys
 from measured import check_outputs, computed, read_measured
 from outputs import unit_of
@@ -74,14 +74,15 @@ class Fit:
 def calibrate(fit):
     """The search, and how well its result is known: Search, Known, row of the best run, whether the start ran."""
     found = search(fit.evaluate, [key.logarithmic for key in fit.keys], fit.low, fit.high, fit.of_constant())
-    jacobian, failed = derivatives(fit.evaluate, fit.low, fit.high, found.x)
+    around = derivatives(fit.evaluate, fit.low, fit.high, found.x)
     (row,) = fit.trials.run([fit.texts(found.x)])
     at_bound = [j for j, x in enumerate(found.x) if min(x - fit.low[j], fit.high[j] - x) < NEAR_BOUND]
     negligible = numpy.zeros(len(fit.scale))
-    for _, at in fit.measured.parts():
+    parts = [at for _, at in fit.measured.parts()]
+    for at in parts:
         negligible[at] = NEGLIGIBLE * max(numpy.max(numpy.abs(fit.computed(row)[at])), 1e-300) / fit.scale[at]
     has_deviations = fit.measured.deviation is not None
-    return found, uncertainty(jacobian, found.residuals, negligible, has_deviations, failed, at_bound), row
+    return found, uncertainty(around, found.residuals, negligible, has_deviations, at_bound, parts), row
 
 
 # --- Tables ------------------------------------------------------------------------------------------------
@@ -156,17 +157,34 @@ def with_unit(text, unit):
     return f"{text} {unit}" if unit not in ("", "-") else text
 
 
+def said_of_kink(fit, kink):
+    """In which way larger and smaller values of a key act, as the end of a sentence."""
+    if kink.output is None:
+        return "the misfit rises at once to both sides"
+    (more, word), (less, other) = sorted([(kink.above, "larger"), (kink.below, "smaller")], reverse=True)
+    output = fit.measured.parts()[kink.output][0]
+    if less < 0.01 * more:
+        return f"{output} responds to {word} values, and hardly to {other} ones"
+    if more < 1.1 * less:
+        return f"{output} responds to {word} values at other times than to {other} ones"
+    return f"{output} responds {more / less:.2g} times as much to {word} values as to {other} ones"
+
+
 def key_sentence(fit, rows, known, j):
     row, name = rows[j], rows[j]["key"]
     value = with_unit(f"{float(row['value']):.5g}", row["unit"])
     said = known.said[j]
-    if said == "known":
+    if said in ("known", "not linear"):
+        doubt = (f" This interval is doubtful: between its ends {said_of_kink(fit, known.kinks[j])}." if said == "not linear" else "")
         return (f"{name} is {value}; its standard error is {with_unit(format(float(row['standard_error']), '.2g'), row['unit'])}, and its 95 % interval "
-                f"goes from {float(row['low95']):.5g} to {float(row['high95']):.5g}.")
+                f"goes from {float(row['low95']):.5g} to {float(row['high95']):.5g}.{doubt}")
     if said == "not told apart":
         other = known.with_whom[j]
         whom = "the other keys" if other is None else f"{rows[other]['key']} (correlation {known.correlations[j, other]:.4g})"
         return f"{name} cannot be told apart from {whom} by these points: {value} is one of many values that fit as well."
+    if said == "kink":
+        return (f"{name} is {value}, where there is a kink: {said_of_kink(fit, known.kinks[j])}. A threshold that is equal to a gradient that was "
+                "applied does this. A standard error would mean nothing, so there is none.")
     return {
         "no response": f"Nothing that was measured responds to {name}: these points say nothing of it, and it is left at {value}.",
         "at a bound": f"{name} ended at its bound, {value}: the points ask for a value beyond it, and its standard error is not known.",
@@ -183,7 +201,7 @@ def misfit_sentences(fit, found, known, row):
         misfit = math.sqrt(numpy.mean((values[at] - measured.value[at]) ** 2))
         sentences.append(f"The computed {output} differs from the measured one by {with_unit(f'{misfit:.3g}', unit_of(output, dimension))} "
                          f"(root mean square of {len(at)} points).")
-    freedom = len(measured.t) - sum(said == "known" or said == "not told apart" for said in known.said)
+    freedom = len(measured.t) - sum(said in ("known", "not told apart", "kink", "not linear") for said in known.said)
     if measured.deviation is not None and freedom > 0:
         likely = chdtrc(freedom, float(found.residuals @ found.residuals))
         sentences.append(f"The differences are {known.misfit:.3g} times those that the deviations of the points let expect"
@@ -227,6 +245,7 @@ def work():
         found, known, row = calibrate(fit)
     except NoRun:
         raise NotDone(["the run of the start and those of all other starts failed; mend the scene, or give other bounds in KEYS="]) from None
+    mark_not_linear(fit.evaluate, fit.low, fit.high, found, known, [at for _, at in measured.parts()])
     rows = rows_of(fit, found, known)
     report = report_of(fit, found, known, rows, row)
     (start,) = fit.trials.run([fit.texts(numpy.zeros(len(keys)))])

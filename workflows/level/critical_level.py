@@ -3,17 +3,19 @@
 
 Writes table.csv, the sweep's table, levels.csv, critical.csv, report.md and levels.svg. `prepare` follows the search from its
 start, as far as the runs so far answer it, and adds the levels that it needs next. So a study that was stopped goes on, and one
-that is complete adds nothing. BOUNDARY, FROM, TO, SCAN, TOLERANCE_LEVEL, STEADY, SET, FACTOR, REGION and DEEPER come from the
-environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
+that is complete adds nothing. At the start of a steady level the slope is looked at apart, with the table slope.csv: runs with
+elastic soil give the flow, and the factor, which takes most of the time, is found only in the first round and where the slope
+begins. BOUNDARY, FROM, TO, SCAN, TOLERANCE_LEVEL, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2
+for wrong input; 1 if runs have no answer.
 """
 
 import dataclasses
 import math
 
 from levels import (InputError, call, csv_text, named_failures, number_in, outcomes, problem, report, rounded,
-                    rows_of_sweep, said_beside, write_changed, write_table)
+                    rows_of_sweep, said_beside, slopes_of, stems_of, write_changed, write_table)
 from assessment import SLOPE, in_order, is_assessed, messages_of, spoken
-from common import cell
+from common import cell, read_rows
 from svg import CURVES, Panel, document
 
 SCAN = 5
@@ -85,32 +87,42 @@ def next_levels(mechanism, known, ends, tolerance, halve):
     return []
 
 
-def replay(coarse, known, tolerance):
-    """All levels of the search in the order in which they are wanted, as far as `known` answers it."""
-    levels, ends, turn = list(coarse), (coarse[0], coarse[-1]), 1
-    while all(level in known for level in levels):
-        so_far = {level: known[level] for level in levels}
-        mechanisms = {mechanism for found in so_far.values() for mechanism in found}
-        wanted = {level for mechanism in mechanisms
-                  for level in next_levels(mechanism, so_far, ends, tolerance, turn % HALVING == 0)}
+def replay(coarse, known, tolerance, slopes=None):
+    """All levels of the search in the order in which they are wanted, as far as `known` answers it, and those of the slope. `slopes`:
+    levels whose slope is known, if it is looked at apart: then it has its own levels and those of the first round."""
+    levels, of_slope, ends, turn = list(coarse), list(coarse), (coarse[0], coarse[-1]), 1
+    while all(level in known for level in levels) and (slopes is None or all(level in slopes for level in of_slope)):
+        mechanisms = {mechanism for level in levels for mechanism in known[level]}
+        wanted = {}
+        for mechanism in mechanisms:
+            at = of_slope if mechanism == SLOPE and slopes is not None else levels
+            so_far = {level: known[level] for level in at}
+            for level in next_levels(mechanism, so_far, ends, tolerance, turn % HALVING == 0):
+                wanted.setdefault(level, set()).add(mechanism)
         if not wanted:
             break
-        levels += sorted(wanted)
+        levels += sorted(wanted.keys() - set(levels))
+        of_slope += sorted(level for level, by in wanted.items() if SLOPE in by)
         turn += 1
-    return levels
+    return levels, of_slope
 
 
 # --- Runs ----------------------------------------------------------------------------------------------------
 
 
-def table_of(study, levels):
-    changes = study.changes()
+def table_of(study, levels, changes):
     return [[study.key, *changes], *([study.cell(level), *changes.values()] for level in levels)]
+
+
+def run_changes(study):
+    """The changes of the runs: their soil is elastic if the slope is looked at apart."""
+    elastic = study.elastic_changes()
+    return study.changes() if elastic is None else elastic
 
 
 def known_of(study, folder):
     """Level -> row of the sweep, of the runs that have ended."""
-    changes = study.changes()
+    changes = run_changes(study)
     ended = [row for row in rows_of_sweep(folder) if row["status"] != "unfinished" and is_assessed(folder / "runs", row["run"])
              and study.key in row and changes.items() <= row.items()]
     known = {study.level_of(row[study.key]): row for row in ended}
@@ -120,8 +132,11 @@ def known_of(study, folder):
 def prepare(study, folder):
     coarse, tolerance = asked()
     study.check_levels("FROM", coarse)
-    known = outcomes(study, folder, known_of(study, folder))
-    write_table(study, folder, table_of(study, replay(coarse, known, tolerance)))
+    slopes = slopes_of(study, folder)
+    known = outcomes(study, folder, known_of(study, folder), slopes)
+    levels, of_slope = replay(coarse, known, tolerance, slopes)
+    write_table(study, folder, table_of(study, levels, run_changes(study)),
+                None if slopes is None else table_of(study, of_slope, study.changes()))
 
 
 # --- Tables and report ---------------------------------------------------------------------------------------
@@ -184,7 +199,7 @@ def not_looked_at(folder, runs, mechanisms):
     """Why there is no slope, if there is none."""
     if SLOPE in mechanisms:
         return []
-    said = [messages_of(folder / "runs" / row["run"] / row["run"]).get("factor") for row in runs]
+    said = [messages_of(stems_of(folder, row)[-1]).get("factor") for row in runs]
     return [f"slope was not looked at: {next((text for text in said if text), 'FACTOR=checks')}"]
 
 
@@ -231,11 +246,18 @@ def conclude(study, folder):
     levels, tolerance = asked()
     rows_known = known_of(study, folder)
     wanted = rows_of_sweep(folder)
-    if wanted and all(row["status"] == "refused" for row in wanted):
-        raise InputError([f"no run can be made: {wanted[0]['message']}"])
-    known = outcomes(study, folder, rows_known)
+    slopes = slopes_of(study, folder)
+    for made in (wanted, list((slopes or {}).values())):
+        if made and all(row["status"] == "refused" for row in made):
+            raise InputError([f"no run can be made: {made[0]['message']}"])
+    known = outcomes(study, folder, rows_known, slopes)
+    for level, row in [(study.level_of(row[study.key]), row) for row in wanted] + list(rows_known.items()):
+        row["slope"] = (slopes or {}).get(level, {}).get("run")
     mechanisms = in_order({name for found in known.values() for name in found})
     silent = [row for row in wanted if not known.get(study.level_of(row[study.key]))]
+    for level in [study.level_of(row[study.key]) for row in read_rows(folder / "slope.csv")]:
+        end = slopes.get(level, {"status": "unfinished", "message": ""})
+        silent += [end | {"run": f"slope at {metres(level)}"}] * (end["status"] in ("unfinished", "refused"))
     if not mechanisms:
         raise InputError(["no run says how safe it is", *named_failures(silent)])
     rows = [row_of(name, known, search(name, known, (levels[0], levels[-1]))) for name in mechanisms]

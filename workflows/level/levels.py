@@ -13,11 +13,15 @@ import tomllib
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
-from assessment import SLOPE, STATES, outcomes_of, reduction_options, said_of_options, said_of_others, with_absent
+from assessment import (SLOPE, STATES, WITHOUT_STRENGTH, is_assessed, outcomes_of, reduction_options, said_of_options, said_of_others, table_in,
+                        with_absent)
 from common import (InputError, csv_text, end_with, find_file, folder_of, number_of, problem, read_csv, read_rows, read_scene,
                     write_changed)
-from sweep import make, refuse_foreign
+from sweep import make, read_status, refuse_foreign
 
+# Laws of soil that fails, with the keys of elastic soil.
+WITH_MODULI = ("mohr-coulomb", "von-mises")
+NAME = re.compile(r"[\w-]+")  # of a soil, as a key of TOML without quotes
 STEADY_END = 1.0  # s: by then hardly any fines have left
 # A number in a warning; not that of a name or an index, such as soil2 or boundary[0].
 NUMBER = re.compile(r"(?<![\w.\[])[-+]?\d+(\.\d+)?([eE][-+]?\d+)?(?![\w\]])")
@@ -164,16 +168,61 @@ class Study:
             steady = {"initial.flow": '"steady"', "time.end": f"{end:g}", "output.every": f"{end:g}", "output.snapshot_every": f"{end:g}"}
         return steady | self.own
 
+    def elastic_changes(self):
+        """The changes of runs whose soil does not fail, for a slope that is looked at apart: at the start of a steady level, where
+        runs are wanted for their flow alone. None where the slope cannot be looked at apart, or where no soil has a strength."""
+        if not self.is_steady or self.states != "start" or "from" in table_in(self.scene, "initial"):
+            return None
+        skeletons = {}
+        for name in table_in(self.scene, "soil"):
+            found = self._skeleton_of(name)
+            if found is None:
+                return None
+            if found.get("law", "rigid") not in WITHOUT_STRENGTH:
+                if found["law"] not in WITH_MODULI or not {"young", "poisson"} <= found.keys():
+                    return None
+                skeletons[f"soil.{name}.skeleton"] = {"law": "elastic", "young": found["young"], "poisson": found["poisson"]}
+        if not skeletons:
+            return None
+        kept = {key: value for key, value in self.changes().items() if ".".join(key.split(".")[:3]) not in skeletons}
+        return kept | {key: "{" + ", ".join(f"{name} = {toml(value)}" for name, value in table.items()) + "}" for key, table in skeletons.items()}
+
+    def _skeleton_of(self, name, known=()):
+        """The keys of the skeleton of a soil, with those of the soil that it is like and those of SET; None where that is not clear."""
+        soil = table_in(table_in(self.scene, "soil"), name)
+        whole = [key for key in self.own if key in ("soil", f"soil.{name}", f"soil.{name}.like") or f"soil.{name}" in key and '"' in key]
+        if whole or name in known or not NAME.fullmatch(name):
+            return None
+        like = soil.get("like")
+        keys = self._skeleton_of(like, (*known, name)) if isinstance(like, str) else {}
+        if keys is None:
+            return None
+        keys = keys | table_in(soil, "skeleton")
+        for key, value in self.own.items():
+            try:
+                if key == f"soil.{name}.skeleton":
+                    keys = table_in(tomllib.loads(f"x = {value}"), "x")
+                elif key.startswith(f"soil.{name}.skeleton."):
+                    keys = keys | {key.split(".", 3)[3]: tomllib.loads(f"x = {value}")["x"]}
+            except tomllib.TOMLDecodeError:
+                return None
+        return keys
+
 
 def rounded(level):
     return float(f"{level:.10g}")
 
 
-def write_table(study, folder, rows):
-    """The table of the sweep. Throws InputError if the folder is that of another scene, or for wrong options of the slope."""
-    reduction_options(study.scene, rows[0], study.states)
+def write_table(study, folder, rows, slopes=None):
+    """The table of the sweep, and that of a slope that is looked at apart. Throws InputError if the folder is that of another scene,
+    or for wrong options of the slope."""
+    reduction_options(study.scene, rows[0] if slopes is None else slopes[0], study.states)
     refuse_foreign(folder / "runs", study.path, folder.resolve() / "table.csv")
     write_changed(folder / "table.csv", csv_text(rows))
+    if slopes is None:
+        (folder / "slope.csv").unlink(missing_ok=True)
+    else:
+        write_changed(folder / "slope.csv", csv_text(slopes))
 
 
 def rows_of_sweep(folder):
@@ -181,10 +230,28 @@ def rows_of_sweep(folder):
     return read_rows(folder / "runs" / "sweep.csv")
 
 
-def outcomes(study, folder, rows):
-    """What the mechanisms did in each run. `rows`: key -> row of the sweep."""
-    return with_absent({key: outcomes_of(folder / "runs", row["run"], row["status"], row["message"], study.states)
-                        for key, row in rows.items()})
+def outcomes(study, folder, rows, slopes=None):
+    """What the mechanisms did in each run. `rows`: key -> row of the sweep. `slopes`: key -> run of a slope that is looked at apart."""
+    found = with_absent({key: outcomes_of(folder / "runs", row["run"], row["status"], row["message"], study.states)
+                         for key, row in rows.items()})
+    if slopes is None:
+        return found
+    apart = {key: outcomes_of(folder / "slope", row["run"], row["status"], row["message"], study.states)[0] for key, row in slopes.items()}
+    without = {key: {name: outcome for name, outcome in run.items() if name != SLOPE} for key, run in found.items()}
+    return {key: run | apart.get(key, {}) for key, run in without.items()}
+
+
+def slopes_of(study, folder):
+    """Level -> run in the folder slope/, with its status and message, of those that have ended. None if the slope is not looked at apart."""
+    if study.elastic_changes() is None:
+        return None
+    changes, slopes = study.changes(), {}
+    for row in read_rows(folder / "slope" / "runs.csv"):
+        if study.key in row and changes.items() <= row.items() and is_assessed(folder / "slope", row["run"]):
+            status, message = read_status(folder / "slope", row["run"])
+            if status != "unfinished":
+                slopes[study.level_of(row[study.key])] = {"run": row["run"], "status": status, "message": message}
+    return slopes
 
 
 def said_beside(study, folder, rows, mechanisms, start):
@@ -210,11 +277,16 @@ def warnings_of(stem):
     return list(found)
 
 
+def stems_of(folder, row):
+    """The run of a row, and that of its slope if it is looked at apart."""
+    return [folder / name / run / run for name, run in (("runs", row["run"]), ("slope", row.get("slope"))) if run]
+
+
 def named_warnings(folder, rows):
     """A line for each warning of the runs. Warnings that differ in their numbers only are one."""
     kinds = {}
     for row in rows:
-        texts = {NUMBER.sub("#", text): text for text in warnings_of(folder / "runs" / row["run"] / row["run"])}
+        texts = {NUMBER.sub("#", text): text for stem in stems_of(folder, row) for text in warnings_of(stem)}
         for kind, text in texts.items():
             kinds.setdefault(kind, []).append((row["run"], text))
     lines = []
@@ -242,17 +314,22 @@ def named_failures(rows):
 
 def call(target, prepare, conclude):
     """The study OUT/TARGET/NAME. Its runs are one sweep, whose table grows round by round: which levels follow depends on the runs
-    before."""
+    before. A slope that is looked at apart has a sweep of its own, with the table slope.csv and the folder slope/."""
     def work():
         study = Study(find_file("SCENE"))
         if target == "fragility":
             os.environ["SWEEP"] = str(find_file("SWEEP"))
         folder, made = folder_of(target, study.path), None
+        table, slope = (folder.resolve() / f"{name}.csv" for name in ("table", "slope"))
         prepare(study, folder)
-        while (table := read_csv(folder / "table.csv")) != made:
-            made = table
+        while (wanted := (read_csv(table), read_rows(slope))) != made:
+            made = wanted
             # Soil that fails in a run is an answer, not the end of the study.
-            make(study.path, folder.resolve() / "table.csv", folder / "runs", study.states)
+            if slope.is_file():
+                make(study.path, table, folder / "runs", "checks", with_reduction=False)
+                make(study.path, slope, folder / "slope", "case")
+            else:
+                make(study.path, table, folder / "runs", study.states)
             prepare(study, folder)
         return conclude(study, folder)
 

@@ -10,6 +10,7 @@ run ends by itself: a word, then the messages. `done`: to the end, and every kil
 word. Otherwise it is that of the program that was stopped or could not use a file, and the next call goes on.
 
 STATES says of which states the factor of safety is wanted: start, last, all, or checks for none; OPTIONs are those of the strength reduction.
+With STATES `case` it is that of the start, and nothing is made but the case.
 Then there are also STEM.check.csv and STEM.factors.csv, where there is something to write, and STEM.assessed at the end: lines `check: MESSAGE`
 and `factor: MESSAGE`, why there is no such number, and `warning: MESSAGE`.
 
@@ -82,6 +83,8 @@ def steps():
         shutil.rmtree(results, ignore_errors=True)
         remove(ledger)
         write(started, text)
+    if safety[:1] == ["case"]:
+        return
     yield "suffuse-solver", "failed", case, "-o", results, *["--quiet"] * (not alone), "--resume"
     yield "suffuse-post", "unbalanced", "ledger", results, "--csv", ledger, "--tolerance", tolerance
 
@@ -116,7 +119,7 @@ def assess(states, *options):
     remove(f"{name}.check.csv", f"{name}.factors.csv", assessed)
     has_state, found = os.path.exists(f"{results}/run.json"), ""  # a run that failed at its start has no state
     asked = [("check", "suffuse-post", "check", results, "--csv", f"{name}.check.csv")] if has_state else []
-    if states != "checks" and not read(status).startswith("refused") and (has_state or states == "start"):
+    if states != "checks" and not read(status).startswith("refused") and (has_state or states in ("start", "case")):
         state = {"last": ["--state", results], "all": ["--state", results, "--time", "all"]}.get(states, [])
         asked.append(("factor", "suffuse-solver", case, "--strength-reduction", *state, *options, "--quiet", "-o", f"{name}.factors.csv"))
     for what, program, *arguments in asked:  # the first error of each program, and its warnings

@@ -178,18 +178,18 @@ def conclude(folder, programs, states, with_figures):
     return 1 if bad else 0
 
 
-def make(scene, table, folder, states="", with_figures=False):
-    """Makes the sweep of a table. `states`: of which states the factor of safety is wanted (assessment.py); "" for none. Returns 1
-    if a run did not end well."""
+def make(scene, table, folder, states="", with_figures=False, with_reduction=True):
+    """Makes the sweep of a table. `states`: of which states the factor of safety is wanted (run.py); "" for none. REGION and DEEPER
+    count `with_reduction`. Returns 1 if a run did not end well. Cases without runs, of the states `case`, have no table."""
     programs, arguments = programs_of(), [states] if states else []
-    if os.environ.get("REGION") or os.environ.get("DEEPER"):
+    if with_reduction and (os.environ.get("REGION") or os.environ.get("DEEPER")):
         arguments += reduction_options(read_scene(scene), read_runs(table)[0], states)
     prepare(scene, table, folder, programs, arguments)
     variables = {"PROGRAMS": str(programs), "STATES": " ".join(arguments), "RUN": str(here / "run.py")}
     sys.stdout.flush()
     # make's job slots are open files. A run that was stopped or killed does not stop the others.
     subprocess.run([os.environ["MAKE"], "-k", "-C", folder, "-f", here / "rows.mk"], env=os.environ | variables, close_fds=False)
-    return conclude(folder, programs, states, with_figures)
+    return 0 if states == "case" else conclude(folder, programs, states, with_figures)
 
 
 def main():

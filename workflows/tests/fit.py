@@ -12,7 +12,7 @@ import numpy
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(workflows / folder) for folder in ("", "sweep", "convergence", "fit")]
-from estimator import NoRun, derivatives, search, uncertainty
+from estimator import NoRun, derivatives, mark_not_linear, search, uncertainty
 from expectations import expect, expect_near, finish
 from keys import Key, split_keys, value_in
 from measured import computed, read_measured
@@ -40,7 +40,8 @@ def losses(values):
 class Model:
     """Stands in for runs. `fails(values)`: whether the run with these values fails."""
 
-    def __init__(self, starts, measured, model=losses, scale=DEVIATION, fails=lambda values: False, bounds=None):
+    def __init__(self, starts, measured, model=losses, scale=DEVIATION, fails=lambda values: False, bounds=None, parts=None):
+        self.parts = parts
         bounds = bounds or [(-FREE, FREE)] * len(starts)
         self.keys = [Key(f"key {j}", start, *bound, "") for j, (start, bound) in enumerate(zip(starts, bounds))]
         self.measured, self.model, self.scale, self.fails = measured, model, scale, fails
@@ -64,8 +65,8 @@ class Model:
         return search(self.evaluate, [key.logarithmic for key in self.keys], self.low, self.high, spread)
 
     def known(self, found, has_deviations=True, at_bound=()):
-        matrix, failed = derivatives(self.evaluate, self.low, self.high, found.x)
-        return uncertainty(matrix, found.residuals, numpy.full(len(self.measured), 1e-9 / self.scale), has_deviations, failed, at_bound)
+        around = derivatives(self.evaluate, self.low, self.high, found.x)
+        return uncertainty(around, found.residuals, numpy.full(len(self.measured), 1e-9 / self.scale), has_deviations, at_bound, self.parts)
 
 
 def check_intervals(has_deviations):
@@ -78,6 +79,7 @@ def check_intervals(has_deviations):
         model = Model([1e-4, 0.3, 1e-3, 1.0], measured, scale=DEVIATION if has_deviations else 1.0)
         found = model.search()
         known = model.known(found, has_deviations)
+        expect("no kink is found where there is none", {}, known.kinks)
         offs.append([(abs(found.x[j] - math.log(true[j] / key.start)) / known.error[j], known.quantile) for j, key in enumerate(model.keys)])
     for j, name in enumerate(TRUE):
         if has_deviations:  # otherwise Student's distribution is wider
@@ -155,6 +157,52 @@ def check_unknown():
     expect("as many keys as points", ["as many keys as points"] * 2, two.known(two.search(), False).said)
 
 
+def check_kinks():
+    """Gradients that are raised in steps: below a threshold soil erodes in no step, or in one more."""
+    true = [2e-4, 1.0]
+    # Noise with which the search ends at a gradient that was applied.
+    generator = random.Random(5)
+    noise = numpy.array([generator.gauss(0.0, DEVIATION) for _ in TIMES])
+    for has_deviations in (True, False):
+        scale = DEVIATION if has_deviations else 1.0
+        stepped = Model([1e-4, 0.7], losses(true) + noise, scale=scale)
+        found = stepped.search()
+        expect_near("the search ends at a gradient that was applied", 1.0, stepped.values(found.x)[1], 2e-3)
+        known = stepped.known(found, has_deviations)
+        expect("which is said of the threshold alone", ["known", "kink"], known.said)
+        expect("it has no standard error", [False, True], list(numpy.isnan(known.error)))
+        expect("smaller values do more", True, known.kinks[1].below > 1.2 * known.kinks[1].above)
+    smooth = Model([1e-4, 0.7], losses([2e-4, 0.7]) + noise)
+    found = smooth.search()
+    known = smooth.known(found)
+    mark_not_linear(smooth.evaluate, smooth.low, smooth.high, found, known, [numpy.arange(12)])
+    expect("between two gradients there is none", ["known", "known"], known.said)
+    # Above the last gradient nothing erodes, and the interval reaches there.
+    near = Model([0.97], losses([2e-4, 0.98])[:6], lambda values: losses([2e-4, values[0]])[:6])
+    found = near.search()
+    known = near.known(found)
+    error = known.error[0]
+    expect("a kink beside the best value is not seen by derivatives", ["known"], known.said)
+    mark_not_linear(near.evaluate, near.low, near.high, found, known, [numpy.arange(6)])
+    expect("but by the ends of the interval", ["not linear"], known.said)
+    expect("smaller values do more there", True, known.kinks[0].below > 1.5 * known.kinks[0].above)
+    expect("the standard error stays", error, known.error[0])
+    # Of two outputs the second has the kink. It counts for the key if the key acts on it.
+    both = lambda share: lambda values: numpy.concatenate([values[1] * TIMES / 3600.0, share * losses(values)])
+    parts = [numpy.arange(12), numpy.arange(12, 24)]
+    for share, said in ((1.0, ["known", "kink"]), (0.05, ["known", "known"])):
+        two = Model([2e-4, 1.0], both(share)(true), both(share), parts=parts)
+        known = two.known(two.search())
+        expect(f"two outputs, {share}", said, known.said)
+        expect("the output is named", [1] if "kink" in said else [], [kink.output for kink in known.kinks.values()])
+    # Responses to both sides differ by less than half, and yet neither lowers the misfit.
+    t, across = numpy.arange(1.0, 13.0), numpy.tile([1.0, -1.0], 6)
+    across = 2.0 * (across - (across @ t) / (t @ t) * t) / numpy.linalg.norm(across)
+    corner = Model([1.0], t - 3.0 * across, lambda values: values[0] * t + 0.2 * abs(values[0] - 1.0) * numpy.linalg.norm(t) * across / 2.0, 1.0)
+    known = corner.known(corner.search())
+    expect("a corner of the misfit", (["kink"], None), (known.said, known.kinks[0].output if known.kinks else "no kink"))
+
+
 def check_keys():
     expect("bounds", [("a.b", -FREE, FREE), ("c[0].d", 1.0, 2.0)], split_keys("a.b, c[0].d:1:2"))
     for text, message in (("", "got nothing"), ("a.b:c:1", "got 'a.b:c:1'"), ("a.b:1", "got 'a.b:1'"), ("a.b:2:1", "got 'a.b:2:1'"),
@@ -224,6 +272,7 @@ if __name__ == "__main__":
     check_exact()
     check_starts()
     check_unknown()
+    check_kinks()
     check_keys()
     with tempfile.TemporaryDirectory() as scratch:
         check_tables(pathlib.Path(scratch))

@@ -43,12 +43,31 @@ def study_of(mechanisms, silent=lambda name, h: False):
     """All levels of the search of these mechanisms, and the outcomes there; how many rounds it took."""
     known, rounds = {}, 0
     while True:
-        levels = replay(SCAN, known, TOLERANCE)
+        levels, _ = replay(SCAN, known, TOLERANCE)
         if all(level in known for level in levels):
             return known, rounds
         rounds += 1
         for level in levels:
             known.setdefault(level, {name: MECHANISMS[name][0](level) for name in mechanisms if not silent(name, level)})
+
+
+def check_apart():
+    """A slope that is looked at apart has the levels of the first round, and those that it asks for."""
+    names = ["heave", "uplift", "slope"]
+    known, slopes = {}, set()
+    while True:
+        levels, of_slope = replay(SCAN, known, TOLERANCE, slopes)
+        if all(level in known for level in levels) and slopes.issuperset(of_slope):
+            break
+        slopes.update(of_slope)
+        for level in levels:
+            known[level] = {name: MECHANISMS[name][0](level) for name in names if name != "slope" or level in slopes}
+    for name in names:
+        found = search(name, known, (FROM, TO))
+        expect(f"{name}, with a slope apart", True, found.holds <= MECHANISMS[name][1] <= found.fails <= found.holds + TOLERANCE * (1.0 + 1e-9))
+    expect("the slope has its own levels", (True, True), (set(SCAN) < slopes, slopes < set(levels)))
+    alone, _ = study_of(["slope"])
+    expect("those that it has alone", set(alone), slopes)
 
 
 def check_search():
@@ -164,6 +183,39 @@ def check_scenes():
         expect("a level below the first head", "is refused", "is taken")
     except InputError as error:
         expect("a level below the first head", "FROM: got 0.5; expected a level above 1 m, the first head of the table", str(error))
+
+
+SLOPE_SCENE = """
+[[boundary]]
+on = "river"
+head = 2.0
+[soil.levee.skeleton]
+law = "mohr-coulomb"
+young = [[1.0, 2e7], [0.0, 1e7]]
+poisson = 0.3
+friction = 30
+[soil.cover]
+like = "levee"
+[soil.rock.skeleton]
+law = "rigid"
+"""
+
+
+def check_elastic():
+    """In runs beside which the slope is looked at, soil that could fail is elastic."""
+    def elastic(scene=SLOPE_SCENE, **variables):
+        changes = study(scene, BOUNDARY="river", **variables).elastic_changes()
+        return changes if changes is None else {key: value for key, value in changes.items() if key.startswith("soil")}
+    table = '{law = "elastic", young = [[1.0, 20000000.0], [0.0, 10000000.0]], poisson = 0.3}'
+    expect("elastic soil has the moduli of the scene", {"soil.levee.skeleton": table, "soil.cover.skeleton": table}, elastic())
+    expect("and those of SET", {"soil.levee.skeleton": '{law = "elastic", young = 5.0, poisson = 0.3}', "soil.rock.erosion.rate": "1",
+                                "soil.cover.skeleton": '{law = "elastic", young = 5.0, poisson = 0.3}'},
+           elastic(SET="soil.levee.skeleton.young=5.0 soil.levee.skeleton.friction=20 soil.rock.erosion.rate=1"))
+    expect("which may make soil rigid", {"soil.levee.skeleton": table, "soil.cover.skeleton": '{law="rigid"}'}, elastic(SET='soil.cover.skeleton={law="rigid"}'))
+    for what, scene, variables in (("no strength", SLOPE_SCENE.replace("mohr-coulomb", "elastic"), {}), ("another law", SLOPE_SCENE.replace("mohr-coulomb", "cam-clay"), {}),
+                                   ("other states", SLOPE_SCENE, {"FACTOR": "last"}), ("a run goes on", SLOPE_SCENE + "[initial]\nfrom = 'x'\n", {}),
+                                   ("a whole soil is set", SLOPE_SCENE, {"SET": "soil.cover={like='rock'}"})):
+        expect(f"not apart: {what}", None, elastic(scene, **variables))
 
 
 # Tables of `suffuse-post check`, and what they say: with units in brackets, in parentheses, in a line of their own, or without.
@@ -312,6 +364,8 @@ def check_charts():
 
 if __name__ == "__main__":
     check_search()
+    check_apart()
+    check_elastic()
     check_bounds()
     check_scenes()
     check_outcomes()

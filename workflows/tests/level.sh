@@ -100,6 +100,19 @@ run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2
 expect 'soil that fails is an answer' '0 between' "$code $(awk -F, '$1 == "slope" && $3 <= 2.19 && 2.19 <= $4 && $4 - $3 <= 0.1000001 { print "between" }' "$out/critical.csv")"
 expect 'what is not checked where soil moves is said' 'Heave by EN 1997-1 and uplift are not checked where soil moves' "$(said 'Heave by EN.*soil moves')"
 expect 'with its message' 'it fails without a factor: ' "$(said 'it fails without a factor: ')"
+# The slope is looked at apart: the flow comes from runs with elastic soil, also where soil fails.
+expect 'no run fails' '' "$(sed 1d "$out/levels.csv" | cut -d, -f3 | grep -v done || true)"
+expect 'so heave is found, too' found "$(level_of heave 2.19 0.1)"
+expect 'the slope has fewer levels than all together' fewer \
+  "$(awk 'FNR == NR { ++all; next } { ++slope } END { print slope < all ? "fewer" : slope " of " all }' "$out/table.csv" "$out/slope.csv")"
+expect 'and a factor for each' "$(sed 1d "$out/slope.csv" | wc -l)" "$(find "$out/slope" -name '*.assessed' | wc -l)"
+before=$(statuses "$out")
+run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2 TOLERANCE_LEVEL=0.1
+expect 'a second call makes no factor' "$before" "$(statuses "$out")"
+rm "$out/slope/0004/0004.assessed"
+run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2 TOLERANCE_LEVEL=0.1
+expect 'one that is missing is made again' "$(cut -d' ' -f1 <<< "$before") 1" \
+  "$(statuses "$out" | cut -d' ' -f1) $(comm -13 <(echo "$before") <(statuses "$out") | grep -c assessed)"
 
 # A skin that does not slide has a larger factor; it is found again when the depth changes, and when it goes.
 printf '%s\n' 'boundary[0].head' 1.8 > head.csv
@@ -124,7 +137,7 @@ expect 'a depth without a factor' "2 DEEPER: got '1' without FACTOR; expected FA
 run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.1 TO=1.8 SCAN=2 TOLERANCE_LEVEL=0.7 NAME=skin REGION=specimen DEEPER=0.3
 expect 'the report says what is left out' \
   'Of the slope, only specimen can fail, other soil is elastic, and bodies within 0.3 m of the surface are left out.' "$(said 'Of the slope.*')"
-expect 'and the slope is that factor' "${factors[2]}" "$(tail -1 "$work/o ut/critical-level/skin/runs/0002/0002.factors.csv" | cut -d, -f2)"
+expect 'and the slope is that factor' "${factors[2]}" "$(tail -1 "$work/o ut/critical-level/skin/slope/0002/0002.factors.csv" | cut -d, -f2)"
 
 # A flood of 20 s: erosion begins at its highest head, as nothing is stored. The level is the same as under a steady head.
 sed 's/head = 1.5/head = [[0, 1.0], [10, 2.0], [20, 1.0]]/; s/^initial.*/initial.water_level = 1.0/; s/^time.*/time.end = 20.0/
