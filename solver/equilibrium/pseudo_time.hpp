@@ -18,6 +18,9 @@ struct SettlingLimits {
   double tolerance = 1e-9;
   /// Displacement that counts as running away, m.
   double far = 0.0;
+  /// Per node: whether hardly any soil holds it, so that its displacement does not count; empty:
+  /// all nodes count.
+  std::vector<char> loose = {};
   /// Iterations of Newton's method, in all steps.
   int max_iterations = 400;
 };

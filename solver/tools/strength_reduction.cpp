@@ -17,13 +17,9 @@ constexpr double elastic_displacement = 1e-5;
 /// `soft_share` in trials: they apply all loads in one step, in which partially filled elements
 /// must not carry loads that the soil cannot.
 constexpr double soft_in_trials = 1e-6;
-
-template <int Dim>
-double largest_length(const NodeVectors<Dim>& vectors) {
-  double result = 0.0;
-  for (const Vector<Dim>& v : vectors) result = std::max(result, v.norm());
-  return result;
-}
+/// Elastic displacement, over its mean weighted by loads, beyond which hardly any soil holds a
+/// node. With moved soil this happens where one point has just entered an empty element.
+constexpr double loose_displacement = 100.0;
 
 /// Size of the smallest element, m.
 template <int Dim>
@@ -53,7 +49,8 @@ class StrengthReduction {
         kept_cohesion_(kept_cohesion),
         points_(body.points),
         skeleton_(body.skeleton),
-        held_(loads.size(), Vector<Dim>::Zero()) {
+        held_(loads.size(), Vector<Dim>::Zero()),
+        loose_(loads.size(), 0) {
     for (SkeletonState& state : points_.skeleton) state.elastic_b.setIdentity();
     find_stiffness();
   }
@@ -100,11 +97,11 @@ class StrengthReduction {
       soil = PseudoTime<Dim>(equilibrium, loads_)
                  .settle(held_, {.tolerance = limits_.newton.tolerance,
                                  .far = far,
+                                 .loose = loose_,
                                  .max_iterations = limits_.settling_iterations});
       soil.iterations += solution.iterations();
     } else {
-      soil.end =
-          largest_length<Dim>(solution.displacement) > far ? Settling::runs_away : Settling::rests;
+      soil.end = largest(solution.displacement) > far ? Settling::runs_away : Settling::rests;
       soil.motion = solution.displacement;
       for (std::size_t i = 0; i < elastic_.size(); ++i) soil.motion[i] -= elastic_[i];
       soil.displacement = std::move(solution.displacement);
@@ -114,7 +111,7 @@ class StrengthReduction {
 
   void note(double factor, SettledSoil<Dim> soil) {
     StrengthTrial trial{.factor = factor,
-                        .displacement_max = largest_length<Dim>(soil.displacement) * stiffness_,
+                        .displacement_max = largest(soil.displacement) * stiffness_,
                         .residual = soil.residual,
                         .iterations = soil.iterations};
     if (soil.end == Settling::rests) {
@@ -151,7 +148,12 @@ class StrengthReduction {
     equilibrium.set_pressure(pressure_);
     elastic_ =
         EquilibriumSolver<Dim>(equilibrium).solve(loads_, held_, limits_.newton).displacement;
-    const double first = largest_length<Dim>(elastic_);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < loads_.size(); ++i) sum += loads_[i].norm() * elastic_[i].norm();
+    for (std::size_t i = 0; i < loose_.size(); ++i) {
+      loose_[i] = elastic_[i].norm() * force > loose_displacement * sum ? 1 : 0;
+    }
+    const double first = largest(elastic_);
     if (first > 0.0) {
       stiffness_ *= first / elastic_max_;
       for (Vector<Dim>& u : elastic_) u *= elastic_max_ / first;
@@ -165,6 +167,15 @@ class StrengthReduction {
       skeleton_[p].parameters.young *= stiffness_;
       if (!kept_cohesion_.empty()) skeleton_[p].parameters.cohesion += kept_cohesion_[p];
     }
+  }
+
+  /// Largest length of a vector at nodes that are not loose.
+  [[nodiscard]] double largest(const NodeVectors<Dim>& vectors) const {
+    double result = 0.0;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+      if (loose_[i] == 0) result = std::max(result, vectors[i].norm());
+    }
+    return result;
   }
 
   [[nodiscard]] SolidBody<Dim> body() const {
@@ -183,6 +194,7 @@ class StrengthReduction {
   NodeVectors<Dim> held_;     ///< displacement in the trial of the largest factor that holds
   double stiffness_ = 1.0;    ///< of trials over that of the soil
   NodeVectors<Dim> elastic_;  ///< displacement of the elastic body in trials, m
+  std::vector<char> loose_;   ///< per node: see SettlingLimits
   SafetyFactor result_;
   std::set<double> undecided_;
   double elastic_max_ = 0.0;  ///< largest displacement of the elastic body in trials, m
