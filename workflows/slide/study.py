@@ -35,7 +35,7 @@ def moments(programs, folder):
     for size, tolerance in (("0.7", "1e-3"), ("0.5", "1e-3"), ("0.35", "1e-3"), ("0.25", "1e-3"), ("0.5", "1e-2"), ("0.5", "3e-4")):
         stem = f"{folder}/size-{size}-tolerance-{tolerance}"
         keys = ["name=slide", f"mesh.size={size}", f"time.tolerance={tolerance}", "time.failure=stop", "time.end=40000.0", "output={every=500.0}"]
-        call(f"{programs}/suffuse-mesher", here / "slide.toml", "-o", f"{stem}.case.h5", *set_options(keys))
+        call(f"{programs}/suffuse-mesher", here.parent / "examples/slide/slide.toml", "-o", f"{stem}.case.h5", *set_options(keys))
         # The run ends when the soil has lost its equilibrium; otherwise the time stays empty.
         code = call(f"{programs}/suffuse-solver", f"{stem}.case.h5", "-o", f"{stem}.results", "--force", "--quiet", ok=(0, 3)).returncode
         failed = read_rows(f"{stem}.results/history.csv")[-1]["t"] if code else ""
