@@ -10,6 +10,7 @@ DEEPER leave soil out. Exit codes: 2 for wrong input; 1 if a run did not end wel
 import concurrent.futures
 import os
 import pathlib
+import shlex
 import subprocess
 import sys
 
@@ -187,8 +188,8 @@ def make(scene, table, folder, states="", with_figures=False, with_reduction=Tru
     prepare(scene, table, folder, programs, arguments)
     variables = {"PROGRAMS": str(programs), "STATES": " ".join(arguments), "RUN": str(here / "run.py")}
     sys.stdout.flush()
-    # make's job slots are open files. A run that was stopped or killed does not stop the others.
-    subprocess.run([os.environ["MAKE"], "-k", "-C", folder, "-f", here / "rows.mk"], env=os.environ | variables, close_fds=False)
+    # The command of make may have arguments. make's job slots are open files. A run that was stopped or killed does not stop the others.
+    subprocess.run([*shlex.split(os.environ["MAKE"]), "-k", "-C", folder, "-f", here / "rows.mk"], env=os.environ | variables, close_fds=False)
     return 0 if states == "case" else conclude(folder, programs, states, with_figures)
 
 

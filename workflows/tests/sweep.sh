@@ -6,6 +6,8 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 cd "$work/my scenes"
 
+# The command of make may have arguments, as it has within `make test`.
+export MAKE='make TEST=1'
 run_sweep() { run_make sweep SCENE="a column.toml" SWEEP="of rates.csv" "$@"; }
 
 # column N...: these columns of the table, without texts in quotes.
