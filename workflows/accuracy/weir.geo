@@ -1,4 +1,4 @@
-// The weir of examples/weir. Its soil has the name of all scenes of this study, whose settings variants.sh gives by that name.
+// The weir of examples/weir. Its soil has the name of all scenes of this study, whose settings study.py gives by that name.
 Point(1) = {0, 0, 0};  Point(2) = {3, 0, 0};  Point(3) = {3, 1, 0};
 Point(4) = {2, 1, 0};  Point(5) = {1, 1, 0};  Point(6) = {0, 1, 0};
 Line(1) = {1, 2};  Line(2) = {2, 3};  Line(3) = {3, 4};

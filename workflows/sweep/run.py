@@ -20,15 +20,19 @@ if the run is done; the exit code is 2 if it was refused, and 3 if it failed or 
 
 import fcntl
 import os
+import pathlib
 import re
 import shutil
 import signal
 import subprocess
 import sys
 
+workflows = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(1, str(workflows))
+from assessment import is_assessed
+
 programs, stem, tolerance, *safety = sys.argv[1:]
 programs, name, alone = os.path.abspath(programs), os.path.basename(stem), bool(os.environ.get("PROGRESS"))
-adapt = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "adapt.py")
 os.chdir(os.path.dirname(stem) or ".")
 inputs, status, case, results, ledger, assessed = (f"{name}.{end}" for end in ("inputs", "status", "case.h5", "results", "ledger.csv", "assessed"))
 started, messages = f".{name}.started", f".{name}.messages"  # the inputs of the case, and what the last program said
@@ -77,7 +81,7 @@ def steps():
         remove(started)  # until the case is whole, an earlier one fits no inputs
         again = [rest for word, _, rest in lines if word == "adapt"]
         if again:
-            yield adapt, "failed", *["--by-default"] * bool(again[0]), programs, scene, name, *options
+            yield workflows / "adapt.py", "failed", *["--by-default"] * bool(again[0]), programs, scene, name, *options
         else:
             yield "suffuse-mesher", "refused", scene, *options, "-o", case
         shutil.rmtree(results, ignore_errors=True)
@@ -139,5 +143,5 @@ for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # the solver stil
     signal.signal(number, lambda *_: None)
 if not is_newer(status, inputs):
     make()
-if safety and not (is_newer(assessed, status) and is_newer(assessed, "../assess.inputs")):
+if safety and not is_assessed(pathlib.Path(".."), name):
     assess(*safety)
