@@ -143,13 +143,7 @@ template <int Dim>
 void PseudoTime<Dim>::judge(const SettlingLimits& limits) {
   unbalanced_ = unbalanced();
   soil_.residual = unbalanced_.norm() / (equilibrium_.force_scale() + norm<Dim>(loads_));
-  const NodeVectors<Dim>& moved = soil_.displacement;
-  double furthest = 0.0;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    if (limits.loose.empty() || limits.loose[i] == 0)
-      furthest = std::max(furthest, moved[i].norm());
-  }
-  if (furthest > limits.far) {
+  if (largest_length<Dim>(soil_.displacement, limits.loose) > limits.far) {
     soil_.end = Settling::runs_away;
   } else if (soil_.residual <= limits.tolerance) {
     soil_.end = Settling::rests;

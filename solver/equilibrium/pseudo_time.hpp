@@ -2,6 +2,9 @@
 
 /// Decides whether soil under constant loads comes to rest or fails.
 
+#include <algorithm>
+#include <vector>
+
 #include "equilibrium/equilibrium.hpp"
 #include "linear/newton_system.hpp"
 
@@ -24,6 +27,16 @@ struct SettlingLimits {
   /// Iterations of Newton's method, in all steps.
   int max_iterations = 400;
 };
+
+/// Largest length of the vectors at nodes that are not loose (see SettlingLimits).
+template <int Dim>
+double largest_length(const NodeVectors<Dim>& vectors, const std::vector<char>& loose) {
+  double result = 0.0;
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    if (loose.empty() || loose[i] == 0) result = std::max(result, vectors[i].norm());
+  }
+  return result;
+}
 
 template <int Dim>
 struct SettledSoil {

@@ -22,9 +22,7 @@ NonlocalFlux<Dim>::NonlocalFlux(const Grid<Dim>& grid, const SoilMap<Dim>& soils
   number_nodes();
   assemble();
   if (grid.ranks().count() > 1) shared_.emplace(grid.ranks(), grid.node_rows(), unknown_);
-  const std::vector<double>& volume = soils.points().volume;
-  volume_ = Eigen::Map<const Values>(volume.data(), static_cast<Eigen::Index>(volume.size()));
-  weight_ = volume_;
+  weight_.resize(soils.points().size());
 }
 
 template <int Dim>
@@ -73,7 +71,8 @@ void NonlocalFlux<Dim>::assemble() {
 
 template <int Dim>
 auto NonlocalFlux<Dim>::smoothed(const Values& source) -> Values {
-  const Values at_nodes = shape_ * source.cwiseProduct(volume_);
+  const Eigen::Map<const Values> volume(soils_.points().volume.data(), source.size());
+  const Values at_nodes = shape_ * source.cwiseProduct(volume);
   const double most = largest_of_all(grid_.ranks(), at_nodes.lpNorm<Eigen::Infinity>());
   // The guess is not an earlier solution, as a resumed run has none.
   const Values guess = Values::Zero(count_);

@@ -54,7 +54,6 @@ class NonlocalFlux {
   Eigen::SparseMatrix<double> matrix_;
   /// Per unknown and solid point: its shape function there; none for soil without a length.
   Eigen::SparseMatrix<double> shape_;
-  Values volume_;                   ///< per solid point, m3
   std::vector<double> fines_left_;  ///< those of the two below
   Values weight_;                   ///< w per solid point
   Values mean_weight_;              ///< M per unknown

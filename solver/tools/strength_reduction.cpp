@@ -101,7 +101,8 @@ class StrengthReduction {
                                  .max_iterations = limits_.settling_iterations});
       soil.iterations += solution.iterations();
     } else {
-      soil.end = largest(solution.displacement) > far ? Settling::runs_away : Settling::rests;
+      soil.end = largest_length<Dim>(solution.displacement, loose_) > far ? Settling::runs_away
+                                                                          : Settling::rests;
       soil.motion = solution.displacement;
       for (std::size_t i = 0; i < elastic_.size(); ++i) soil.motion[i] -= elastic_[i];
       soil.displacement = std::move(solution.displacement);
@@ -110,10 +111,11 @@ class StrengthReduction {
   }
 
   void note(double factor, SettledSoil<Dim> soil) {
-    StrengthTrial trial{.factor = factor,
-                        .displacement_max = largest(soil.displacement) * stiffness_,
-                        .residual = soil.residual,
-                        .iterations = soil.iterations};
+    StrengthTrial trial{
+        .factor = factor,
+        .displacement_max = largest_length<Dim>(soil.displacement, loose_) * stiffness_,
+        .residual = soil.residual,
+        .iterations = soil.iterations};
     if (soil.end == Settling::rests) {
       trial.end = TrialEnd::holds;
       result_.holds = factor;
@@ -153,7 +155,7 @@ class StrengthReduction {
     for (std::size_t i = 0; i < loose_.size(); ++i) {
       loose_[i] = elastic_[i].norm() * force > loose_displacement * sum ? 1 : 0;
     }
-    const double first = largest(elastic_);
+    const double first = largest_length<Dim>(elastic_, loose_);
     if (first > 0.0) {
       stiffness_ *= first / elastic_max_;
       for (Vector<Dim>& u : elastic_) u *= elastic_max_ / first;
@@ -167,15 +169,6 @@ class StrengthReduction {
       skeleton_[p].parameters.young *= stiffness_;
       if (!kept_cohesion_.empty()) skeleton_[p].parameters.cohesion += kept_cohesion_[p];
     }
-  }
-
-  /// Largest length of a vector at nodes that are not loose.
-  [[nodiscard]] double largest(const NodeVectors<Dim>& vectors) const {
-    double result = 0.0;
-    for (std::size_t i = 0; i < vectors.size(); ++i) {
-      if (loose_[i] == 0) result = std::max(result, vectors[i].norm());
-    }
-    return result;
   }
 
   [[nodiscard]] SolidBody<Dim> body() const {
