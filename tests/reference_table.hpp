@@ -29,7 +29,7 @@ class ReferenceRow {
 };
 
 inline std::vector<ReferenceRow> read_reference(const std::string& name) {
-  std::ifstream file(std::string(SUFFUSE_TEST_DATA) + "/reference/" + name);
+  std::ifstream file(test::data_folder() + "/reference/" + name);
   if (!file) throw std::runtime_error("no reference table " + name);
   const auto split = [](std::string line) {
     if (line.ends_with('\r')) line.pop_back();

@@ -56,9 +56,9 @@ Outcome run(const std::string& folder, const std::vector<std::string>& words) {
   return outcome;
 }
 
-const std::string mesher = SUFFUSE_BIN "/suffuse-mesher";
-const std::string solver = SUFFUSE_BIN "/suffuse-solver";
-const std::string post = SUFFUSE_BIN "/suffuse-post";
+const std::string mesher = test::program_folder() + "/suffuse-mesher";
+const std::string solver = test::program_folder() + "/suffuse-solver";
+const std::string post = test::program_folder() + "/suffuse-post";
 
 std::string name_of(const std::string& program) {
   return program.substr(program.rfind('/') + 1);

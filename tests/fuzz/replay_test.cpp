@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 std::vector<fs::path> inputs_of(const std::string& target) {
   std::vector<fs::path> inputs;
   for (const std::string kind : {"corpus", "findings"}) {
-    const fs::path folder = fs::path(SUFFUSE_SOURCE_DIR) / "tests/fuzz" / kind / target;
+    const fs::path folder = fs::path(test::source_folder()) / "tests/fuzz" / kind / target;
     if (!fs::is_directory(folder)) continue;
     for (const auto& entry : fs::directory_iterator(folder)) inputs.push_back(entry.path());
   }

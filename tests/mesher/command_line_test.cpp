@@ -29,8 +29,8 @@ class CommandLine : public testing::Test {
 
   /// Runs suffuse-mesher in the folder, after the shell commands `before`.
   [[nodiscard]] Outcome run(const std::string& arguments, const std::string& before = ":") const {
-    const std::string command = "cd '" + folder_.path().string() + "' && " + before +
-                                " && '" SUFFUSE_BIN "/suffuse-mesher' " + arguments + " 2>&1";
+    const std::string command = "cd '" + folder_.path().string() + "' && " + before + " && '" +
+                                test::program_folder() + "/suffuse-mesher' " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(command.c_str(), "r");
     std::string text;
     std::array<char, 4096> buffer{};
@@ -74,7 +74,7 @@ TEST_F(CommandLine, SaysWhereTheCaseOfASceneInAnotherFolderIs) {
 
 TEST_F(CommandLine, MakesADoublePointCase) {
   const Outcome outcome =
-      run("'" SUFFUSE_TEST_DATA "/scenes/double-point.toml' -o dp.case.h5 --msh dp.msh");
+      run("'" + test::data_folder() + "/scenes/double-point.toml' -o dp.case.h5 --msh dp.msh");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
   EXPECT_EQ(outcome.text,
             "dp.case.h5\n"
@@ -186,8 +186,8 @@ TEST_F(CommandLine, WarnsWhenItMakesACaseToo) {
 
 TEST_F(CommandLine, RefusesMoreLiquidPointsThanAnyoneMeans) {
   // Elements of free water hold 1e9 times as much liquid as those of this soil.
-  const Outcome outcome =
-      run("'" SUFFUSE_TEST_DATA "/scenes/double-point.toml' --set soil.specimen.porosity=1e-8");
+  const Outcome outcome = run("'" + test::data_folder() +
+                              "/scenes/double-point.toml' --set soil.specimen.porosity=1e-8");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.text.find("double-point.toml:21: points.liquid_per_element: got "
                               "32000000768 liquid points in all; expected at most 100 million: "
@@ -262,20 +262,21 @@ TEST_F(CommandLine, WarnsOfWhatIsUnusual) {
 }
 
 TEST_F(CommandLine, AnEndlessGeometryIsStopped) {
-  folder_.write("endless.toml", test::scene_text("[geometry]\nfile = \"" SUFFUSE_TEST_DATA
+  folder_.write("endless.toml", test::scene_text("[geometry]\nfile = \"" + test::data_folder() +
                                                  "/geometry/endless.geo\"\n"));
   const Outcome outcome = run("endless.toml --geometry-timeout 0.5");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.text,
-            "endless.toml:4: geometry.file: got \"" SUFFUSE_TEST_DATA
-            "/geometry/endless.geo\", over which Gmsh has spent 0.5 s of processor time without an "
-            "end; expected a file without endless loops and with sizes that suit the model; for a "
-            "large one a longer --geometry-timeout\n");
+  EXPECT_EQ(
+      outcome.text,
+      "endless.toml:4: geometry.file: got \"" + test::data_folder() +
+          "/geometry/endless.geo\", over which Gmsh has spent 0.5 s of processor time without an "
+          "end; expected a file without endless loops and with sizes that suit the model; for a "
+          "large one a longer --geometry-timeout\n");
   EXPECT_EQ(folder_.count(), 2);
 }
 
 TEST_F(CommandLine, TheTimeLimitEndsWithTheGeometry) {
-  folder_.write("square.toml", test::scene_text("[geometry]\nfile = \"" SUFFUSE_TEST_DATA
+  folder_.write("square.toml", test::scene_text("[geometry]\nfile = \"" + test::data_folder() +
                                                 "/geometry/square.geo\"\n[mesh]\nsize = 0.1\n"));
   const Outcome outcome = run("square.toml --geometry-timeout 30");
   EXPECT_EQ(outcome.code, 0) << outcome.text;
@@ -368,12 +369,13 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(CommandLine, AGeometryThatGmshCannotReadIsPlaced) {
   // Each file needs its own process: Gmsh's parser does not recover from an error.
-  folder_.write("bad.toml", test::scene_text("[geometry]\nfile = \"" SUFFUSE_TEST_DATA
+  folder_.write("bad.toml", test::scene_text("[geometry]\nfile = \"" + test::data_folder() +
                                              "/geometry/syntax_error.geo\"\n[mesh]\nsize = 0.5\n"));
   const Outcome outcome = run("bad.toml");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.text, SUFFUSE_TEST_DATA
-            "/geometry/syntax_error.geo:12: got syntax error (=); expected valid Gmsh text\n");
+  EXPECT_EQ(outcome.text,
+            test::data_folder() +
+                "/geometry/syntax_error.geo:12: got syntax error (=); expected valid Gmsh text\n");
   EXPECT_EQ(folder_.count(), 2);
 }
 

@@ -20,7 +20,7 @@ namespace doubtful_scenes_test {
 
 namespace fs = std::filesystem;
 
-const fs::path folder = fs::path(SUFFUSE_TEST_DATA) / "scenes/doubtful";
+const fs::path folder = fs::path(test::data_folder()) / "scenes/doubtful";
 
 std::vector<std::string> doubtful_scenes() {
   std::vector<std::string> names;
@@ -107,7 +107,7 @@ TEST(DoubtfulScene, none_of_the_workflows_and_the_cases) {
   int scenes = 0;
   for (const char* const part : {"workflows", "tests/cases"}) {
     for (const auto& entry :
-         fs::recursive_directory_iterator(fs::path(SUFFUSE_SOURCE_DIR) / part)) {
+         fs::recursive_directory_iterator(fs::path(test::source_folder()) / part)) {
       if (entry.path().extension() != ".toml") continue;
       try {
         const SceneDocument document = read_scene(entry.path().string());

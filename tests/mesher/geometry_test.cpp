@@ -342,7 +342,7 @@ TEST(Scene, APorosityThatLeavesItsBoundsIsPlaced) {
 class UserFile : public testing::Test {
  protected:
   UserFile() {
-    for (const auto& entry : fs::directory_iterator(SUFFUSE_TEST_DATA "/geometry")) {
+    for (const auto& entry : fs::directory_iterator(test::data_folder() + "/geometry")) {
       fs::copy(entry.path(), folder_.path());
     }
     files_ = folder_.count();

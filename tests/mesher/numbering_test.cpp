@@ -52,8 +52,8 @@ std::string solve(const TemporaryFolder& folder, const std::string& name, Mesh<2
   Case<2> made{document, std::move(mesh), {}, {}};
   made.solid_points = seed_solid_points(made.mesh, document.scene);
   write_case(folder.file(name + ".case.h5"), made);
-  const std::string command = "cd '" + folder.path().string() +
-                              "' && '" SUFFUSE_BIN "/suffuse-solver' --quiet " + name + ".case.h5";
+  const std::string command = "cd '" + folder.path().string() + "' && '" + test::program_folder() +
+                              "/suffuse-solver' --quiet " + name + ".case.h5";
   EXPECT_EQ(std::system(command.c_str()), 0) << name;
   return folder.file(name + ".results");
 }

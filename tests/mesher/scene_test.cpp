@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 using Knots = std::vector<std::pair<double, double>>;
 
-const fs::path scenes = fs::path(SUFFUSE_TEST_DATA) / "scenes";
+const fs::path scenes = fs::path(test::data_folder()) / "scenes";
 
 std::string read_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -778,7 +778,7 @@ TEST(SceneSchema, declares_each_key_once_and_within_its_own_bounds) {
 }
 
 TEST(SceneReference, is_up_to_date) {
-  EXPECT_EQ(read_text(fs::path(SUFFUSE_SOURCE_DIR) / "docs/reference/scene-reference.md"),
+  EXPECT_EQ(read_text(fs::path(test::source_folder()) / "docs/reference/scene-reference.md"),
             scene_reference_markdown())
       << "docs/reference/scene-reference.md is stale; run in the root of the repository:\n"
          "  suffuse-mesher --scene-reference > docs/reference/scene-reference.md";

@@ -295,7 +295,7 @@ TEST(Seeding, LeavesSolidPointsOutOfFreeWater) {
 /// The paper's column: twelve liquid points in each triangle of soil, and a proportional number in
 /// free water.
 TEST(Seeding, OfThePapersColumnHasEqualVolumes) {
-  const SceneDocument document = read_scene(SUFFUSE_TEST_DATA "/scenes/double-point.toml");
+  const SceneDocument document = read_scene(test::data_folder() + "/scenes/double-point.toml");
   const Mesh<2> mesh = build_geometry_of<2>(document).mesh;
   const MaterialPoints<2> points = seed_liquid_points(mesh, document.scene);
   for (int e = 0; e < mesh.element_count(); ++e) {

@@ -48,7 +48,7 @@ SceneDocument scene(const std::string& geometry, const std::vector<std::string>&
 
 SceneDocument scene_of_file(const std::string& name, const std::vector<std::string>& overrides = {},
                             const std::string& more = "") {
-  const std::string file = SUFFUSE_TEST_DATA "/geometry/" + name;
+  const std::string file = test::data_folder() + "/geometry/" + name;
   return scene("[geometry]\nfile = \"" + file + "\"\n", overrides, more);
 }
 
@@ -266,12 +266,12 @@ TEST(WantedSizes, RefusesScenesThatCannotHaveThem) {
   EXPECT_EQ(refusal<2>(scene(square, {"mesh.structure=crossed"}), wanted),
             "--set mesh.structure=crossed: mesh.structure: got \"crossed\" with --sizes; expected "
             "\"free\", or no such key: elements of a pattern have one size");
-  const std::string mesh = SUFFUSE_TEST_DATA "/geometry/square.msh";
+  const std::string mesh = test::data_folder() + "/geometry/square.msh";
   EXPECT_EQ(refusal<2>(scene_of_file("square.msh"), wanted),
             "test.toml:4: geometry.file: got \"" + mesh +
                 "\" with --sizes; expected a .geo or "
                 ".step file: a .msh file has a mesh already");
-  const std::string itself = SUFFUSE_TEST_DATA "/geometry/meshes_itself.geo";
+  const std::string itself = test::data_folder() + "/geometry/meshes_itself.geo";
   EXPECT_EQ(refusal<2>(scene_of_file("meshes_itself.geo"), wanted),
             "test.toml:4: geometry.file: got \"" + itself +
                 "\" with --sizes, which meshes itself; "

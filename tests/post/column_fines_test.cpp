@@ -14,7 +14,7 @@ namespace column_fines_test {
 
 using testing::ScratchFolder;
 
-const std::string reference = std::string(SUFFUSE_TEST_DATA) + "/reference/";
+const std::string reference = test::data_folder() + "/reference/";
 
 /// The first word of a line, and the numbers after it.
 struct Line {

@@ -30,8 +30,8 @@ struct Outcome {
 Outcome post(const ScratchFolder& scratch, const std::string& arguments) {
   const std::string out = scratch / "stdout.txt";
   const std::string error = scratch / "stderr.txt";
-  const std::string command = std::string("env -u DISPLAY ") + SUFFUSE_BIN + "/suffuse-post " +
-                              arguments + " > " + out + " 2> " + error;
+  const std::string command = std::string("env -u DISPLAY ") + test::program_folder() +
+                              "/suffuse-post " + arguments + " > " + out + " 2> " + error;
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(out), file_text(error)};
 }

@@ -11,7 +11,7 @@
 namespace suffuse {
 namespace exact_solution_test {
 
-const std::string reference = std::string(SUFFUSE_TEST_DATA) + "/reference/";
+const std::string reference = test::data_folder() + "/reference/";
 
 Soil paper_soil(const ErosionLaw* law, double rate) {
   Soil soil;

@@ -20,7 +20,7 @@ inline ResultsReader run_programs(const ScratchFolder& scratch, const std::strin
                                   const std::string& scene, const std::string& geometry = {}) {
   if (!geometry.empty()) std::ofstream(scratch / (name + ".geo")) << geometry;
   std::ofstream(scratch / (name + ".toml")) << scene;
-  const std::string programs = std::string(SUFFUSE_BIN) + "/";
+  const std::string programs = test::program_folder() + "/";
   const std::string file = scratch / (name + ".case.h5");
   const std::string folder = scratch / (name + ".results");
   const std::string commands = programs + "suffuse-mesher " + scratch / (name + ".toml") + " -o " +

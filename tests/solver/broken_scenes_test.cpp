@@ -15,7 +15,7 @@
 namespace suffuse {
 namespace broken_scenes_test {
 
-const std::string folder_of_scenes = SUFFUSE_SOURCE_DIR "/tests/cases/";
+const std::string folder_of_scenes = test::source_folder() + "/tests/cases/";
 
 /// A scene of the folder with its geometry.
 test::Mode scene_of(const std::string& name) {

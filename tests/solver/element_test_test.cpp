@@ -169,7 +169,7 @@ struct Program {
   std::string table = folder.write("table.csv", triaxial);
 
   int run(const std::string& arguments) const {
-    const std::string command = std::string(SUFFUSE_BIN) + "/suffuse-solver " + arguments + " > " +
+    const std::string command = test::program_folder() + "/suffuse-solver " + arguments + " > " +
                                 folder.file("out") + " 2> " + folder.file("errors");
     return WEXITSTATUS(std::system(command.c_str()));
   }

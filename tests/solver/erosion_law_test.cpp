@@ -214,7 +214,7 @@ TEST(ErosionLaws, RunWithoutBeingKnown) {
 
 TEST(ErosionLaws, AreAddedAsTheDocumentationSays) {
   const auto text_of = [](const std::string& file) {
-    std::ifstream in(std::string(SUFFUSE_SOURCE_DIR) + file);
+    std::ifstream in(test::source_folder() + file);
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
   const std::string law = text_of("/tests/solver/second_order.cpp");

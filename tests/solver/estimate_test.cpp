@@ -223,7 +223,7 @@ TEST(Estimate, OfTheStartUpAloneIsNear) {
 /// A scene of the workflows or the cases, on a coarse mesh.
 Case<2> case_of(const TemporaryFolder& folder, const std::string& scene, const std::string& size) {
   const std::string path = folder.file("scene.case.h5");
-  const std::string command = std::string(SUFFUSE_BIN) + "/suffuse-mesher " + SUFFUSE_SOURCE_DIR +
+  const std::string command = test::program_folder() + "/suffuse-mesher " + test::source_folder() +
                               "/" + scene + " -o " + path + " --set mesh.size=" + size +
                               " > /dev/null 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
@@ -307,15 +307,15 @@ TEST(Explain, PrintsTheEstimateAndLeavesNothingBehind) {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "here");
   fs::create_directory(folder.path() / "temporary");
-  const std::string mesher = std::string(SUFFUSE_BIN) + "/suffuse-mesher " + SUFFUSE_SOURCE_DIR +
+  const std::string mesher = test::program_folder() + "/suffuse-mesher " + test::source_folder() +
                              "/workflows/paper/sp-constant-figure.toml -o " +
                              folder.file("run.case.h5") + " > /dev/null 2>&1";
   ASSERT_EQ(std::system(mesher.c_str()), 0);
   const auto explain = [&](const std::string& temporary) {
     const std::string command = "cd " + folder.file("here") + " && TMPDIR=" + temporary + " " +
-                                SUFFUSE_BIN + "/suffuse-solver " + folder.file("run.case.h5") +
-                                " --explain > " + folder.file("out") + " 2> " +
-                                folder.file("error");
+                                test::program_folder() + "/suffuse-solver " +
+                                folder.file("run.case.h5") + " --explain > " + folder.file("out") +
+                                " 2> " + folder.file("error");
     const int status = std::system(command.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 0) << test::read_file(folder.file("error"));
     return test::read_file(folder.file("out"));

@@ -398,8 +398,8 @@ TEST_F(Fault, StreamsThatAreClosed) {
                  {R"(boundary[0]={on = "inflow", darcy_flux = 0.012, concentration = 0.7})"}));
   const Outcome undisturbed = place_.solve(warned, whole_, {"--force"});
   ASSERT_NE(undisturbed.error.find("of its volume in fines"), std::string::npos);
-  Process process({SUFFUSE_BIN "/suffuse-solver", warned, "-o", folder}, place_.path("error.txt"),
-                  [] {
+  Process process({test::program_folder() + "/suffuse-solver", warned, "-o", folder},
+                  place_.path("error.txt"), [] {
                     for (const int stream : {0, 1, 2}) ::close(stream);
                   });
   EXPECT_EQ(process.wait().code, 0);
@@ -411,7 +411,7 @@ TEST_F(Fault, NobodyReadsTheMessages) {
   const std::string explicit_case = place_.make_case(test::five_modes()[2]);
   const Outcome undisturbed = place_.solve(explicit_case, whole_, {"--force"});
   ASSERT_NE(undisturbed.error, "") << "a run that has something to say";
-  Process process({SUFFUSE_BIN "/suffuse-solver", explicit_case, "-o", folder},
+  Process process({test::program_folder() + "/suffuse-solver", explicit_case, "-o", folder},
                   place_.path("error.txt"), [] {
                     std::array<int, 2> ends{};
                     if (::pipe(ends.data()) != 0) ::_exit(1);
@@ -453,8 +453,8 @@ TEST_F(Fault, ALostTerminalEndsARunUnlessNohupSaysNo) {
 TEST_F(Fault, MesherWithClosedStreams) {
   const std::string made = test::read_file(case_);
   const std::string again = place_.path("again.case.h5");
-  std::vector<std::string> words{SUFFUSE_BIN "/suffuse-mesher", place_.path("double_point.toml"),
-                                 "-o", again};
+  std::vector<std::string> words{test::program_folder() + "/suffuse-mesher",
+                                 place_.path("double_point.toml"), "-o", again};
   for (const std::string& set : mode().sets) words.insert(words.end(), {"--set", set});
   Process process(words, place_.path("error.txt"), [] {
     for (const int stream : {0, 1, 2}) ::close(stream);
@@ -484,7 +484,7 @@ TEST_F(Fault, WhatPostWritesIsWholeOrAsItWas) {
     fs::create_directories(place_.path("made"));
     const std::string file = place_.path("made/" + name);
     std::ofstream(file) << "as it was\n";
-    std::vector<std::string> words{SUFFUSE_BIN "/suffuse-post"};
+    std::vector<std::string> words{test::program_folder() + "/suffuse-post"};
     words.insert(words.end(), command.begin(), command.end());
     words.push_back(file);
     Process process(words, place_.path("error.txt"), [] { limit_files_to(64); });
@@ -498,7 +498,7 @@ TEST_F(Fault, WhatPostWritesIsWholeOrAsItWas) {
 
 TEST_F(Fault, ExportLeavesWholeFilesAlone) {
   const auto export_to = [&](const std::string& folder) {
-    Process process({SUFFUSE_BIN "/suffuse-post", "export", whole_, "-o", folder},
+    Process process({test::program_folder() + "/suffuse-post", "export", whole_, "-o", folder},
                     place_.path("error.txt"));
     return process.wait();
   };

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 /// Two weirs. Water seeps below the right one only while the river is high.
 test::Mode two_weirs() {
-  const std::string stem = std::string(SUFFUSE_SOURCE_DIR) + "/workflows/adapt/second-weir";
+  const std::string stem = test::source_folder() + "/workflows/adapt/second-weir";
   return {"weirs",
           test::read_file(stem + ".toml"),
           {"geometry.file=\"" + stem + ".geo\"", "output.restarts=10"}};
@@ -35,7 +35,7 @@ class MeshAgain : public testing::Test {
   [[nodiscard]] Answer solver(const std::string& options) const {
     const std::string out = place_.path("out");
     const std::string error = place_.path("error");
-    const std::string command = "cd " + place_.path("") + " && " + SUFFUSE_BIN +
+    const std::string command = "cd " + place_.path("") + " && " + test::program_folder() +
                                 "/suffuse-solver " + options + " > " + out + " 2> " + error;
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), test::read_file(out), test::read_file(error)};

@@ -167,7 +167,7 @@ std::vector<test::Mode> variants() {
                  {"soil.specimen.conductivity_law=constant", "liquid.bulk_modulus=inf",
                   "soil.specimen.erosion={law = \"constant\", rate = 2e-2, start = 1.0}"}),
       test::with(single, "leaky_wall",
-                 {R"(geometry={file = ")" SUFFUSE_TEST_DATA R"(/geometry/sheet_pile.geo"})",
+                 {R"(geometry={file = ")" + test::data_folder() + R"(/geometry/sheet_pile.geo"})",
                   R"(boundary=[{on = "left", pressure = 6e3, concentration = 0.01}, )"
                   R"({on = "right", pressure = 0.0, concentration = 0.0}])",
                   R"(wall=[{on = "pile", conductance = 1e-2}])", "mesh.size=0.4"}),
@@ -270,7 +270,8 @@ TEST_F(ResumedRun, CheckpointsByTheClockChangeNothing) {
 TEST_F(ResumedRun, AFinishedRunIsLeftAlone) {
   const std::string before = test::contents(whole_);
   const Outcome outcome =
-      Process({SUFFUSE_BIN "/suffuse-solver", case_, "-o", whole_, "--resume"}, place_.path("e"))
+      Process({test::program_folder() + "/suffuse-solver", case_, "-o", whole_, "--resume"},
+              place_.path("e"))
           .wait();
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.error.substr(0, outcome.error.find('\n')),

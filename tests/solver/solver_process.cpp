@@ -219,15 +219,15 @@ Mode with(Mode mode, const std::string& name, const std::vector<std::string>& se
 
 std::vector<std::string> solver_words(const std::string& case_path, const std::string& results,
                                       const std::vector<std::string>& options) {
-  std::vector<std::string> words{SUFFUSE_BIN "/suffuse-solver", case_path, "-o", results,
-                                 "--quiet"};
+  std::vector<std::string> words{test::program_folder() + "/suffuse-solver", case_path, "-o",
+                                 results, "--quiet"};
   words.insert(words.end(), options.begin(), options.end());
   return words;
 }
 
 std::string Workplace::make_case(const Mode& mode) const {
   const std::string scene = folder_.write(mode.name + ".toml", mode.scene);
-  std::vector<std::string> words{SUFFUSE_BIN "/suffuse-mesher", scene, "-o",
+  std::vector<std::string> words{test::program_folder() + "/suffuse-mesher", scene, "-o",
                                  path(mode.name + ".case.h5")};
   for (const std::string& set : mode.sets) words.insert(words.end(), {"--set", set});
   const Outcome outcome = Process(words, path("mesher.txt")).wait();

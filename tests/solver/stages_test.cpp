@@ -273,7 +273,8 @@ TEST_F(FromEarlierOnce, BoundariesLawsGravityAndSchemeMayDiffer) {
   const std::string folder = place_.path("b.results");
   solve(case_path, folder);
   expect_balanced(ResultsReader(folder).ledger());
-  Process process({SUFFUSE_BIN "/suffuse-solver", case_path, "--explain"}, place_.path("explain"));
+  Process process({test::program_folder() + "/suffuse-solver", case_path, "--explain"},
+                  place_.path("explain"));
   const Outcome explained = process.wait();
   EXPECT_EQ(explained.code, 0);
   for (const char* said :

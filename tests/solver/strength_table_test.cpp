@@ -47,8 +47,8 @@ class Workshop {
  public:
   /// Runs a program in the folder. Returns its exit code.
   int run(const std::string& command) const {
-    const std::string line =
-        "cd " + folder_.path().string() + " && " + SUFFUSE_BIN + "/" + command + " > out 2> errors";
+    const std::string line = "cd " + folder_.path().string() + " && " + test::program_folder() +
+                             "/" + command + " > out 2> errors";
     return WEXITSTATUS(std::system(line.c_str()));
   }
   /// Meshes a scene into NAME.case.h5.
@@ -572,7 +572,7 @@ TEST(StrengthTable, RefusesSoilThatFailsWithAnyStrengthAndNamesIt) {
 /// Air above the soil carries no load: the factor is that of the soil alone.
 TEST(StrengthTable, AirAboveTheSoilChangesNothing) {
   const Workshop w;
-  std::string geometry = test::read_file(SUFFUSE_SOURCE_DIR "/tests/cases/slope.geo");
+  std::string geometry = test::read_file(test::source_folder() + "/tests/cases/slope.geo");
   w.folder().write("air.geo", geometry);
   for (const std::string part :
        {"Curve Loop(3)={8,9,10,-5,-4,-3};Plane Surface(3)={3};",

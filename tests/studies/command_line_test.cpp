@@ -19,9 +19,9 @@ class StudiesCommand : public ::testing::Test {
  protected:
   /// Exit code; what the program writes to stderr lands in `message`.
   int studies(const std::string& arguments) {
-    const std::string command = std::string("env -u DISPLAY ") + SUFFUSE_BIN + "/suffuse-studies " +
-                                arguments + " > " + scratch / "out.txt" + " 2> " +
-                                scratch / "error.txt";
+    const std::string command = std::string("env -u DISPLAY ") + test::program_folder() +
+                                "/suffuse-studies " + arguments + " > " + scratch / "out.txt" +
+                                " 2> " + scratch / "error.txt";
     const int status = std::system(command.c_str());
     message = file_text(scratch / "error.txt");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

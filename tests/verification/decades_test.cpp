@@ -269,7 +269,7 @@ struct Century {
 
 Century century(double tolerance) {
   constexpr double year = 3.1557e7;
-  const std::string path = SUFFUSE_SOURCE_DIR "/workflows/examples/decades/weir.toml";
+  const std::string path = test::source_folder() + "/workflows/examples/decades/weir.toml";
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   Case<2> c;

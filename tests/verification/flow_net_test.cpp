@@ -27,7 +27,7 @@ constexpr double fall = 2.5;           // m
 constexpr double depth = 6.0;          // m
 constexpr double half_length = 12.0;   // m
 
-const std::string pile_scene = SUFFUSE_SOURCE_DIR "/workflows/pictures/pile.toml";
+const std::string pile_scene = test::source_folder() + "/workflows/pictures/pile.toml";
 
 /// Runs a scene for a second, with the changes of `changes`, and reads it.
 ResultsReader pile_run(const std::string& name, const std::string& changes = "",
@@ -36,7 +36,7 @@ ResultsReader pile_run(const std::string& name, const std::string& changes = "",
   std::filesystem::create_directories(folder);
   const std::string stem = (folder / name).string();
   std::filesystem::remove_all(stem + ".results");
-  const std::string bin = SUFFUSE_BIN;
+  const std::string bin = test::program_folder();
   const std::string command = bin + "/suffuse-mesher " + scene +
                               " --set time.end=1.0 --set output.every=1.0 " + changes + " -o " +
                               stem + ".case.h5 > " + stem + ".log && " + bin + "/suffuse-solver " +
@@ -206,7 +206,7 @@ TEST(FlowNet, RefusesADrainInsideTheModel) {
   std::filesystem::create_directories(folder);
   const std::string path = (folder / "drain.toml").string();
   std::ofstream(path) << "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
-                      << "geometry.file = \"" SUFFUSE_TEST_DATA "/geometry/sheet_pile.geo\"\n"
+                      << "geometry.file = \"" + test::data_folder() + "/geometry/sheet_pile.geo\"\n"
                       << R"(
     mesh = { size = 0.25, structure = "free" }
     liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }

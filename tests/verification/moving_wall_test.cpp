@@ -25,7 +25,8 @@ std::string loaded_box(double left, double right, const std::string& inside) {
   return R"(
 formulation = "single-point"
 [geometry]
-file = ")" SUFFUSE_TEST_DATA R"(/geometry/divided.geo"
+file = ")" +
+         test::data_folder() + R"(/geometry/divided.geo"
 [mesh]
 size = 0.25
 [liquid]

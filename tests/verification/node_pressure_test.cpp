@@ -28,7 +28,7 @@ Case<2> weir() {
     probes += "{at = [" + std::to_string(0.01 * i) + ", 0.97]}, ";
   }
   Case<2> c;
-  c.document = read_scene(std::string(SUFFUSE_SOURCE_DIR) + "/workflows/examples/weir/weir.toml",
+  c.document = read_scene(test::source_folder() + "/workflows/examples/weir/weir.toml",
                           {"boundary[0].pressure=6.0e3", "time.end=40.0", probes + "]"});
   c.mesh = build_geometry_of<2>(c.document).mesh;
   c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);

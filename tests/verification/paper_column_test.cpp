@@ -26,8 +26,8 @@ class PaperRun {
       : folder_(fs::path(::testing::TempDir()) / (test_name() + "-" + scene + ".results")) {
     fs::remove_all(folder_);
     Case<2> c;
-    c.document = read_scene(std::string(SUFFUSE_SOURCE_DIR) + "/workflows/paper/" + scene + ".toml",
-                            overrides);
+    c.document =
+        read_scene(test::source_folder() + "/workflows/paper/" + scene + ".toml", overrides);
     c.mesh = build_geometry_of<2>(c.document).mesh;
     c.solid_points = seed_solid_points(c.mesh, c.document.scene.points);
     const SolverOptions options;

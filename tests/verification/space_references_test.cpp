@@ -24,7 +24,7 @@ Mesh<3> mesh_of(const std::string& file, double size) {
   const SceneDocument document = parse_scene(R"(
 formulation = "single-point"
 [geometry]
-file = ")" SUFFUSE_TEST_DATA "/geometry/" + file +
+file = ")" + test::data_folder() + "/geometry/" + file +
                                                  R"("
 [mesh]
 size = )" + std::to_string(size) + R"(

@@ -115,7 +115,7 @@ TEST(WaterAtTheGroundOfAFile, flows_whatever_the_scale_rounds) {
 
 /// The ground of tests/cases/head-level.toml under heads at its two levels, and at zero pressure.
 TEST(GroundOfTwoLevels, flows_from_the_upper_to_the_lower) {
-  const std::string folder = SUFFUSE_SOURCE_DIR "/tests/cases/";
+  const std::string folder = test::source_folder() + "/tests/cases/";
   const std::vector<std::string> file{"geometry.file=\"" + folder + "a.geo\""};
   std::string text = test::read_file(folder + "head-level.toml");
   model::SceneRun<2> under_heads(text, file);
