@@ -69,6 +69,7 @@ MovingSkeleton<Dim>::MovingSkeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils,
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     solid_[e] = soils.is_soil(e) ? solid_[e] - element_sum<Dim>(pores[e]) : 0.0;
   }
+  find_filling();
 }
 
 template <int Dim>

@@ -182,7 +182,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   RegionGains region_gain_;
   std::vector<double> pressure_;      ///< of the pores at the last equilibrium, per element, Pa
   double time_of_fall_;               ///< see `time_of_fall`
-  std::vector<SoilFilling> filling_;  ///< after the last motion
+  std::vector<SoilFilling> filling_;  ///< where the points are now
   SolidFlux<Dim> solid_flux_;
   double correction_ = 0.0;  ///< see HistoryRow::solid_correction
   long newton_iterations_ = 0;

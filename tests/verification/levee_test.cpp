@@ -1,5 +1,6 @@
 /// A levee in two dimensions with many processes at once: wetting and draining, a flood that rises
-/// and falls, seepage faces that open and close, rain, a well, erosion by two laws.
+/// and falls, seepage faces that open and close, rain, a well, erosion by two laws. A levee of soil
+/// that moves, in a steady flow.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,12 @@
 #include <cstring>
 #include <iostream>
 
+#include <fstream>
+#include <numbers>
+
 #include "model_run.hpp"
+#include "scene_run.hpp"
+#include "test_paths.hpp"
 
 namespace suffuse {
 namespace levee_test {
@@ -172,6 +178,33 @@ TEST(Levee, HasTheSameBitsOnTwoThreads) {
     ASSERT_EQ(one.fines.fines_volume[e], two.fines.fines_volume[e]);
     ASSERT_EQ(one.fines.liquid_volume[e], two.fines.liquid_volume[e]);
   }
+}
+
+/// A second under a level that stands for ever, with tan(friction) and cohesion divided by
+/// `reduction`.
+HistoryRow after_a_second(double reduction) {
+  const std::string folder = test::source_folder() + "/workflows/examples/slide/";
+  std::ifstream scene(folder + "slide.toml");
+  const double radian = std::numbers::pi / 180.0;
+  const double friction = std::atan(std::tan(34.0 * radian) / reduction) / radian;
+  const std::string skeleton = "soil.levee.skeleton.";
+  model::SceneRun<2> run(
+      std::string(std::istreambuf_iterator<char>(scene), {}),
+      {"geometry.file=\"" + folder + "levee.geo\"", "mesh.size=1.0", "boundary[0].head=2.6",
+       "initial.flow=\"steady\"", "time.end=1.0", skeleton + "friction=" + std::to_string(friction),
+       skeleton + "cohesion=" + std::to_string(4e3 / reduction)});
+  run.run_to(1.0);
+  return run.history();
+}
+
+// Its factor of safety by strength reduction is 1.57.
+TEST(Levee, StandsInItsSteadyFlowAsItsFactorSays) {
+  const HistoryRow stands = after_a_second(1.5);
+  EXPECT_EQ(stands.failure_time, 0.0);
+  EXPECT_EQ(stands.inertia, 0.0);
+  EXPECT_LT(stands.displacement_max, 1e-5);
+  EXPECT_NEAR(stands.flux_out / stands.flux_in, 1.0, 1e-3);
+  EXPECT_GT(after_a_second(1.65).inertia, 0.0);
 }
 
 }  // namespace levee_test
