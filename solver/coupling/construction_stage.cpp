@@ -107,7 +107,7 @@ void fill_pores(const Grid<Dim>& grid, const FlowSoils<Dim>& soils, const Liquid
     room.fill(share);
     for (int k = 0; k <= Dim && !soils.saturated(); ++k) {
       const double pressure = face_pressure[grid.element_face[e][k]];
-      content.air[e][k] = share * (1.0 - soils.saturation(e, pressure));
+      content.air[e][k] = share * (1.0 - soils.at(e, pressure).saturation);
       room[k] -= content.air[e][k];
     }
     content.fines[e].fill(0.0);

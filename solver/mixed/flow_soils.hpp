@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "mixed/directional_factor.hpp"
@@ -32,15 +33,23 @@ struct FlowSoils {
   }
   /// Whether the air in pores moves with soil that moves.
   [[nodiscard]] bool air_moves() const { return !soil_share.empty(); }
-  /// S of an element at a pressure in Pa.
-  [[nodiscard]] double saturation(int e, double pressure) const {
+  /// The state of an element at a pressure in Pa, with slopes in 1/Pa. k_r stays above zero, as
+  /// pressures are solved for in a linear system.
+  [[nodiscard]] RetentionState at(int e, double pressure) const {
+    constexpr double driest = 1e-20;
+    // With a lower k_r pressures in free space are unbounded, and the iteration does not end.
+    constexpr double film = 1e-6;
     const double psi = pressure * head_per_pressure;
-    return mixed(e, retention[e].saturation(psi), [&] { return free_space.saturation(psi); });
-  }
-  [[nodiscard]] double capacity(int e, double pressure) const {
-    const double psi = pressure * head_per_pressure;
-    return head_per_pressure *
-           mixed(e, retention[e].capacity(psi), [&] { return free_space.capacity(psi); });
+    RetentionState state = retention[e].at(psi);
+    if (is_mixed(e)) {
+      RetentionState space = free_space.at(psi);
+      keep_above(film, space);
+      state = mixture(space, state, soil_share[e]);
+    }
+    keep_above(driest, state);
+    state.capacity *= head_per_pressure;
+    state.conductivity_slope *= head_per_pressure;
+    return state;
   }
   /// Pressures at which dS/dp of the soil and of free space in the element is largest, Pa; 0 where
   /// there is none, or where it stays saturated.
@@ -48,32 +57,24 @@ struct FlowSoils {
     const auto of = [this](const RetentionModel& model) {
       return model.law ? model.law->steepest(model.parameters) / head_per_pressure : 0.0;
     };
-    const bool is_mixed = air_moves() && soil_share[e] < 1.0;
-    return {of(retention[e]), is_mixed ? of(free_space) : 0.0};
-  }
-  /// k_r of an element. It stays above zero, as pressures are solved for in a linear system.
-  [[nodiscard]] double relative_conductivity(int e, double pressure) const {
-    constexpr double driest = 1e-20;
-    // With a lower k_r pressures in free space are unbounded, and the iteration does not end.
-    constexpr double film = 1e-6;
-    const double psi = pressure * head_per_pressure;
-    return std::max(driest, mixed(e, retention[e].relative_conductivity(psi), [&] {
-                      return std::max(film, free_space.relative_conductivity(psi));
-                    }));
+    return {of(retention[e]), is_mixed(e) ? of(free_space) : 0.0};
   }
   /// Share of an element's suction that acts on the soil: the soil's share of the pores times S_e =
   /// (S - S_r) / (1 - S_r) >= 0 (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515).
   [[nodiscard]] double suction_share(int e, double saturation) const {
-    const double residual =
-        mixed(e, retention[e].residual_saturation, [&] { return free_space.residual_saturation; });
+    double residual = retention[e].residual_saturation;
+    if (is_mixed(e)) residual = std::lerp(free_space.residual_saturation, residual, soil_share[e]);
     const double effective = std::max(0.0, (saturation - residual) / (1.0 - residual));
     return air_moves() ? soil_share[e] * effective : effective;
   }
 
  private:
-  [[nodiscard]] double mixed(int e, double of_soil, const auto& of_free_space) const {
-    if (!air_moves() || soil_share[e] == 1.0) return of_soil;
-    return soil_share[e] * of_soil + (1.0 - soil_share[e]) * of_free_space();
+  /// Whether the pores of an element are soil's only in part.
+  [[nodiscard]] bool is_mixed(int e) const { return air_moves() && soil_share[e] < 1.0; }
+  static void keep_above(double least, RetentionState& state) {
+    if (state.relative_conductivity > least) return;
+    state.relative_conductivity = least;
+    state.conductivity_slope = 0.0;
   }
 };
 

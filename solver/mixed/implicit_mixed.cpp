@@ -244,7 +244,7 @@ std::vector<double> ImplicitMixed<Dim>::relative_conductivity(
   std::vector<double> result(model_.grid.volume.size(), 0.0);
   for_each_index(model_.grid.mesh.element_count(), model_.settings.threads, [&](int e) {
     for (const int f : model_.grid.element_face[e]) {
-      result[e] += soils().relative_conductivity(e, face_pressure[f]) / (Dim + 1);
+      result[e] += soils().at(e, face_pressure[f]).relative_conductivity / (Dim + 1);
     }
   });
   return result;

@@ -116,15 +116,29 @@ struct MixedStage {
   }
   /// Flux out of an element through a side whose pressure rises by `rise`, m3/s.
   [[nodiscard]] double flux_out(int e, int k, double rise) const {
-    return flux[e].dot(model.grid.outward_normal(e, k)) - stored(e, k, rise) +
-           net_source[e] / (Dim + 1);
+    return flux[e].dot(model.grid.outward_normal(e, k)) - stored(e, k, rise) + side_source(e, k);
   }
-  /// Rate at which liquid displaces air in the share of a side, m3/s.
-  [[nodiscard]] double displacement_rate(int e, int k, double p) const {
+  /// The part of an element's source in the share of a side, m3/s. Water that moves with the soil
+  /// and its air leaves sides by what they hold, and enters them by their room: a dry side has
+  /// nothing to give.
+  [[nodiscard]] double side_source(int e, int k) const {
+    if (net_source[e] == 0.0 || displaced.empty() || is_steady() || !model.soils.air_moves()) {
+      return net_source[e] / (Dim + 1);
+    }
+    const double pores = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
+    const auto takes_part = [&](int side) {
+      const double air = base.air[e][side];
+      return std::max(0.0, net_source[e] > 0.0 ? air : pores - air);
+    };
+    double sum = 0.0;
+    for (int side = 0; side <= Dim; ++side) sum += takes_part(side);
+    return net_source[e] * (sum > 0.0 ? takes_part(k) / sum : 1.0 / (Dim + 1));
+  }
+  /// Rate at which liquid displaces air in the share of a side with this saturation, m3/s.
+  [[nodiscard]] double displacement_rate(int e, int k, double saturation) const {
     if (is_steady()) return 0.0;
     const double share = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
-    const double air = share * (1.0 - model.soils.saturation(e, p));
-    return (base.air[e][k] - air) / duration;
+    return (base.air[e][k] - share * (1.0 - saturation)) / duration;
   }
   [[nodiscard]] double inflow(int f) const { return faces.inflow(f, coefficients.porosity); }
   /// Flux per pressure, m3/(s Pa), through the element's largest face.

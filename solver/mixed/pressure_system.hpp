@@ -114,8 +114,8 @@ class PressureSystem {
       for (const int e : {model.grid.face_left[f], model.grid.face_right[f]}) {
         if (e < 0) continue;
         const int k = model.grid.side_of(e, f);
-        load_[row] += face_push_[e].dot(model.grid.outward_normal(e, k)) +
-                      stage.net_source[e] / (Dim + 1) - stage.storage[e] * pressure.offset[f] -
+        load_[row] += face_push_[e].dot(model.grid.outward_normal(e, k)) + stage.side_source(e, k) -
+                      stage.storage[e] * pressure.offset[f] -
                       stage.stored_in_mean(e, known) / (Dim + 1);
         if (!stage.displaced.empty()) load_[row] -= stage.displaced[e][k];
         tolerance_[row] += round_off_[e] * model.face_area[f];

@@ -111,29 +111,21 @@ class RetentionNewton {
   void linearise_retention() {
     const FlowSoils<Dim>& soils = model_.soils;
     stage_.for_each_element([&](int e) {
-      const auto pressure = [&](int k) {
-        return stage_.pressure.reference[model_.grid.element_face[e][k]];
-      };
       double conducts = 0.0;
       const double share = stage_.coefficients.porosity[e] * model_.grid.volume[e] / (Dim + 1);
       for (int k = 0; k <= Dim; ++k) {
-        const double p = pressure(k);
-        conducts += soils.relative_conductivity(e, p) / (Dim + 1);
-        stage_.displaced[e][k] = stage_.displacement_rate(e, k, p);
-        side_storage_[e][k] =
-            stage_.is_steady() ? 0.0 : share * soils.capacity(e, p) / stage_.duration;
+        const RetentionState side =
+            soils.at(e, stage_.pressure.reference[model_.grid.element_face[e][k]]);
+        conducts += side.relative_conductivity / (Dim + 1);
+        stage_.displaced[e][k] = stage_.displacement_rate(e, k, side.saturation);
+        side_storage_[e][k] = stage_.is_steady() ? 0.0 : share * side.capacity / stage_.duration;
+        gain_[e][k] = side.conductivity_slope / (Dim + 1);
       }
       const double of_darcy = conducts / stage_.resistance[e];
       stage_.set_mobility(e, of_darcy);
-      for (int k = 0; k <= Dim; ++k) {
-        // The slope is a difference quotient, as the derivative may be infinite at saturation.
-        const double p = pressure(k);
-        const double near = 1.0 + 1e-3 * std::abs(p);  // Pa
-        const double rise =
-            soils.relative_conductivity(e, p + near) - soils.relative_conductivity(e, p - near);
-        gain_[e][k] = rise / (2.0 * near) / (Dim + 1) / conducts;
-        if (!stage_.expected_gradient.empty()) gain_[e][k] *= of_darcy / stage_.law.mobility[e];
-      }
+      const bool is_slowed = !stage_.expected_gradient.empty();
+      const double of_gain = is_slowed ? of_darcy / stage_.law.mobility[e] : 1.0;
+      for (double& gain : gain_[e]) gain *= of_gain / conducts;
     });
   }
 

@@ -17,7 +17,7 @@ ElementField<Dim> air_at(const MixedModel<Dim>& model, const std::vector<double>
     const double share = porosity[e] * grid.volume[e] / (Dim + 1);
     for (int k = 0; k <= Dim; ++k) {
       const double pressure = face_pressure[grid.element_face[e][k]];
-      air[e][k] = share * (1.0 - model.soils.saturation(e, pressure));
+      air[e][k] = share * (1.0 - model.soils.at(e, pressure).saturation);
     }
   });
   return air;
@@ -68,7 +68,8 @@ struct StageEnd {
         const int f = grid.element_face[e][k];
         net_outflow[e] -= stage.storage[e] * rise[f];
         if (stage.displaced.empty()) continue;
-        stage.displaced[e][k] = stage.displacement_rate(e, k, state.face_pressure[f]);
+        const double saturation = model.soils.at(e, state.face_pressure[f]).saturation;
+        stage.displaced[e][k] = stage.displacement_rate(e, k, saturation);
         net_outflow[e] -= stage.displaced[e][k];
       }
     });

@@ -113,11 +113,9 @@ void MovingSkeleton<Dim>::deposit(const std::vector<double>& volume) {
 
 template <int Dim>
 void MovingSkeleton<Dim>::start_from(const SolidState& state) {
-  std::vector<double> gain = this->state_.solid_volumes();
+  add_to_elements(this->state_.solid_volumes(), -1.0);
   ErodingSkeleton<Dim>::start_from(state);
-  const std::vector<double> now = this->state_.solid_volumes();
-  for (std::size_t p = 0; p < gain.size(); ++p) gain[p] = now[p] - gain[p];
-  add_to_elements(gain);
+  add_to_elements(this->state_.solid_volumes());
 }
 
 template <int Dim>

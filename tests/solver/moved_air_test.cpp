@@ -144,17 +144,51 @@ TEST_F(MovedAirTest, AirOfASideStaysWithinItsRoom) {
   }
 }
 
+/// Compares the slopes of a state with difference quotients.
+void expect_slopes(const auto& at, double x, double near) {
+  const RetentionState low = at(x - near);
+  const RetentionState high = at(x + near);
+  const RetentionState here = at(x);
+  const double digits = 1e-15 * here.saturation / near;  // of the quotients
+  const double capacity = (high.saturation - low.saturation) / (2.0 * near);
+  EXPECT_NEAR(here.capacity, capacity, 1e-6 * capacity + digits) << x;
+  const double slope = (high.relative_conductivity - low.relative_conductivity) / (2.0 * near);
+  EXPECT_NEAR(here.conductivity_slope, slope, 1e-6 * slope + digits) << x;
+}
+
+TEST(Retention, KnowsItsSlopes) {
+  for (const double n : {1.3, 2.0, 2.5, 8.0}) {
+    const RetentionModel soil = model::van_genuchten(3.0, n, 0.0);
+    for (const double psi : {-0.01, -0.3, -3.0, -300.0}) {
+      expect_slopes([&](double x) { return soil.at(x); }, psi, 1e-5 * -psi);
+    }
+  }
+  const RetentionModel soil = model::gardner(3.0, 0.0);
+  expect_slopes([&](double x) { return soil.at(x); }, -0.3, 1e-5);
+}
+
+/// k_r keeps its digits in dry soil, where it is (n - 1)^2 / n^2 (alpha psi)^(1 / 2 - 5 n / 2), and
+/// neither law overflows.
+TEST(Retention, KeepsItsDigitsInDrySoil) {
+  constexpr double n = 2.0;
+  const RetentionModel soil = model::van_genuchten(1.0, n, 0.0);
+  const double dry = 0.25 * std::pow(1e6, 0.5 - 2.5 * n);
+  EXPECT_NEAR(soil.at(-1e6).relative_conductivity / dry, 1.0, 1e-9);
+  EXPECT_NEAR(soil.at(-1e300).saturation / 1e-300, 1.0, 1e-9);
+  EXPECT_EQ(soil.at(-1e-300).saturation, 1.0);
+  EXPECT_EQ(soil.at(-1e-300).relative_conductivity, 1.0);
+}
+
 /// Moving soil may be drier than its residual saturation; its capacity is the slope of its
 /// saturation.
 TEST(DryingSoil, LosesWhatItRetains) {
-  RetentionModel soil = model::van_genuchten(3.0, 2.5, 0.1);
+  const RetentionModel keeps = model::van_genuchten(3.0, 2.5, 0.1);
+  RetentionModel soil = keeps;
   soil.dries_at = 1000.0;
-  EXPECT_NEAR(soil.saturation(-1000.0), 0.05, 1e-4);
-  EXPECT_NEAR(soil.saturation(-1.0), model::van_genuchten(3.0, 2.5, 0.1).saturation(-1.0), 1e-6);
+  EXPECT_NEAR(soil.at(-1000.0).saturation, 0.05, 1e-4);
+  EXPECT_NEAR(soil.at(-1.0).saturation, keeps.at(-1.0).saturation, 1e-6);
   for (const double psi : {-0.3, -3.0, -300.0, -3000.0}) {
-    const double near = 1e-5 * psi;
-    const double slope = (soil.saturation(psi + near) - soil.saturation(psi - near)) / (2.0 * near);
-    EXPECT_NEAR(soil.capacity(psi), slope, 1e-6 * slope);
+    expect_slopes([&](double x) { return soil.at(x); }, psi, 1e-5 * -psi);
   }
   EXPECT_EQ(soil.effective(0.05), 0.0);
   EXPECT_NEAR(soil.effective(0.55), 0.5, 1e-15);
@@ -169,14 +203,11 @@ TEST(FlowSoils, MixWhereSoilFillsAPart) {
   soils.free_space = model::van_genuchten(30.0, 3.0, 0.0);
   soils.soil_share = {1.0, 0.25};
   const double pressure = -4e3;
-  const double soil = soils.retention[0].saturation(-0.4);
-  EXPECT_DOUBLE_EQ(soils.saturation(0, pressure), soil);
-  EXPECT_NEAR(soils.saturation(1, pressure), 0.25 * soil + 0.75 * soils.free_space.saturation(-0.4),
-              1e-15);
-  const double near = 1.0;
-  const double slope =
-      (soils.saturation(1, pressure + near) - soils.saturation(1, pressure - near)) / (2.0 * near);
-  EXPECT_NEAR(soils.capacity(1, pressure), slope, 1e-6 * slope);
+  const double soil = soils.retention[0].at(-0.4).saturation;
+  EXPECT_DOUBLE_EQ(soils.at(0, pressure).saturation, soil);
+  EXPECT_NEAR(soils.at(1, pressure).saturation,
+              0.25 * soil + 0.75 * soils.free_space.at(-0.4).saturation, 1e-15);
+  expect_slopes([&](double x) { return soils.at(1, x); }, pressure, 1.0);
   // Suction acts on the soil alone, by its effective saturation.
   EXPECT_NEAR(soils.suction_share(1, 0.5125), 0.25 * 0.5, 1e-15);
   EXPECT_NEAR(soils.suction_share(0, 0.55), 0.5, 1e-15);

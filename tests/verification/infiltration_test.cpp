@@ -180,8 +180,8 @@ TEST(Absorption, FollowsBruceAndKlute) {
       if (x > cells - 1) continue;
       const int i = static_cast<int>(x);
       const auto effective = [&](int node) {
-        return scene.soils[0].retention.law->saturation(scene.soils[0].retention.parameters,
-                                                        flow.node_pressure[node] / 9810.0);
+        const RetentionModel& soil = scene.soils[0].retention;
+        return soil.law->at(soil.parameters, flow.node_pressure[node] / 9810.0).saturation;
       };
       const double found = std::lerp(effective(i), effective(i + 1), x - i);
       worst = std::max(worst, std::abs(found - row.number("S_e")));

@@ -9,12 +9,9 @@
 namespace suffuse::retention {
 namespace {
 
-double saturation(const RetentionParameters& p, double psi) {
-  return std::exp(p.alpha * psi);
-}
-
-double capacity(const RetentionParameters& p, double psi) {
-  return p.alpha * std::exp(p.alpha * psi);
+RetentionState at(const RetentionParameters& p, double psi) {
+  const double held = std::exp(p.alpha * psi);
+  return {held, p.alpha * held, held, p.alpha * held};
 }
 
 double steepest(const RetentionParameters& p) {
@@ -30,9 +27,7 @@ constexpr std::array parameters{RetentionParameter{
 extern const RetentionLaw gardner{.word = "gardner",
                                   .description = "S_e = k_r = exp(alpha psi)",
                                   .parameters = parameters,
-                                  .saturation = saturation,
-                                  .capacity = capacity,
-                                  .steepest = steepest,
-                                  .relative_conductivity = saturation};
+                                  .at = at,
+                                  .steepest = steepest};
 
 }  // namespace suffuse::retention

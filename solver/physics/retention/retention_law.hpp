@@ -4,6 +4,7 @@
 /// file of this folder; docs/develop/contributing.md says how to add one.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -18,6 +19,14 @@ struct RetentionParameters {
   double n = 0.0;      ///< exponent; larger for more uniform pore sizes
 };
 
+/// A soil under a pressure head psi.
+struct RetentionState {
+  double saturation = 1.0;             ///< S; of a law alone: S_e
+  double capacity = 0.0;               ///< its slope in psi, 1/m
+  double relative_conductivity = 1.0;  ///< k_r, conductivity over that of the saturated soil
+  double conductivity_slope = 0.0;     ///< dk_r/dpsi, 1/m
+};
+
 /// The law of a soil and its parameters. The pressure head psi = p / (rho_w g), m, is negative
 /// under suction. S = S_r + (1 - S_r) S_e is the liquid per pore volume.
 struct RetentionModel {
@@ -28,12 +37,8 @@ struct RetentionModel {
   /// below the residual saturation when its pores open.
   double dries_at = std::numeric_limits<double>::infinity();
 
-  /// S; 1 where psi >= 0.
-  [[nodiscard]] double saturation(double psi) const;
-  /// dS/dpsi, 1/m; 0 where psi >= 0.
-  [[nodiscard]] double capacity(double psi) const;
-  /// k_r, conductivity over that of the saturated soil; 1 where psi >= 0.
-  [[nodiscard]] double relative_conductivity(double psi) const;
+  /// The state at a pressure head, m; saturated where psi >= 0.
+  [[nodiscard]] RetentionState at(double psi) const;
   /// S_e = (S - S_r) / (1 - S_r), at least 0.
   [[nodiscard]] double effective(double saturation) const {
     return std::max(0.0, (saturation - residual_saturation) / (1.0 - residual_saturation));
@@ -50,19 +55,16 @@ struct RetentionParameter {
   double RetentionParameters::*value = nullptr;
 };
 
-/// A retention law. Its functions are called with psi < 0.
+/// A retention law. Its functions are called with psi < 0. They are most of the time of an
+/// iteration in unsaturated soil, so a law finds all that it knows at once.
 struct RetentionLaw {
   std::string_view word;         ///< value of `model` in a scene
   std::string_view description;  ///< S_e and k_r, for the scene reference
   std::span<const RetentionParameter> parameters;
-  /// S_e
-  double (*saturation)(const RetentionParameters& parameters, double psi);
-  /// dS_e/dpsi, 1/m
-  double (*capacity)(const RetentionParameters& parameters, double psi);
+  /// S_e, k_r and their slopes.
+  RetentionState (*at)(const RetentionParameters& parameters, double psi);
   /// psi at which dS_e/dpsi is largest, m; below 0.
   double (*steepest)(const RetentionParameters& parameters);
-  /// k_r
-  double (*relative_conductivity)(const RetentionParameters& parameters, double psi);
 };
 
 /// All laws, in the order of physics/CMakeLists.txt and the scene reference.
@@ -70,22 +72,22 @@ std::span<const RetentionLaw* const> retention_laws();
 /// The law with the name `word`. Throws std::invalid_argument if there is none.
 const RetentionLaw* retention_law(std::string_view word);
 
-inline double RetentionModel::saturation(double psi) const {
-  if (law == nullptr || psi >= 0.0) return 1.0;
-  const double retained = residual_saturation / (1.0 + (psi / dries_at) * (psi / dries_at));
-  return retained + (1.0 - residual_saturation) * law->saturation(parameters, psi);
+/// Pores of which one state has the share `share`, and the other the rest.
+inline RetentionState mixture(const RetentionState& rest, const RetentionState& one, double share) {
+  return {std::lerp(rest.saturation, one.saturation, share),
+          std::lerp(rest.capacity, one.capacity, share),
+          std::lerp(rest.relative_conductivity, one.relative_conductivity, share),
+          std::lerp(rest.conductivity_slope, one.conductivity_slope, share)};
 }
 
-inline double RetentionModel::capacity(double psi) const {
-  if (law == nullptr || psi >= 0.0) return 0.0;
+inline RetentionState RetentionModel::at(double psi) const {
+  if (law == nullptr || psi >= 0.0) return {};
+  RetentionState state = law->at(parameters, psi);
   const double held = 1.0 + (psi / dries_at) * (psi / dries_at);
   const double dried = -2.0 * residual_saturation * psi / (dries_at * dries_at * held * held);
-  return dried + (1.0 - residual_saturation) * law->capacity(parameters, psi);
-}
-
-inline double RetentionModel::relative_conductivity(double psi) const {
-  if (law == nullptr || psi >= 0.0) return 1.0;
-  return law->relative_conductivity(parameters, psi);
+  state.saturation = residual_saturation / held + (1.0 - residual_saturation) * state.saturation;
+  state.capacity = dried + (1.0 - residual_saturation) * state.capacity;
+  return state;
 }
 
 }  // namespace suffuse

@@ -9,35 +9,41 @@
 namespace suffuse::retention {
 namespace {
 
-double saturation(const RetentionParameters& p, double psi) {
-  return std::pow(1.0 + std::pow(-p.alpha * psi, p.n), -(1.0 - 1.0 / p.n));
-}
-
-double capacity(const RetentionParameters& p, double psi) {
-  const double m = 1.0 - 1.0 / p.n;
-  const double power = std::pow(-p.alpha * psi, p.n);
-  return m * p.n * (power / -psi) * std::pow(1.0 + power, -m - 1.0);
-}
-
-double steepest(const RetentionParameters& p) {
-  return -std::pow(1.0 - 1.0 / p.n, 1.0 / p.n) / p.alpha;
-}
-
 /// For n < 2 Mualem's k_r has an infinite slope at psi = 0, due to unrealistically large pores. k_r
 /// is therefore linear up to this suction head, m (Vogel, van Genuchten and Cislerova, Adv. Water
 /// Resour. 24 (2001) 133, who also modify S_e).
 constexpr double smallest_suction = 0.02;
 
-double relative_conductivity(const RetentionParameters& p, double psi) {
-  if (p.n < 2.0 && psi > -smallest_suction) {
-    const double there = relative_conductivity(p, -smallest_suction);
-    return 1.0 + (1.0 - there) * psi / smallest_suction;
-  }
+RetentionState at(const RetentionParameters& p, double psi) {
   const double m = 1.0 - 1.0 / p.n;
-  const double power = std::pow(-p.alpha * psi, p.n);
-  // 1 - (1 - S_e^(1/m))^m with S_e^(1/m) = 1 / (1 + power), without cancellation in dry soil.
-  const double opened = -std::expm1(-m * std::log1p(1.0 / power));
-  return std::sqrt(std::pow(1.0 + power, -m)) * opened * opened;
+  // x = (-alpha psi)^n. Only exp(-|log x|) neither overflows nor loses digits, in wet soil and dry.
+  const double log_x = p.n * std::log(-p.alpha * psi);
+  const bool is_dry = log_x > 0.0;
+  const double small = std::exp(is_dry ? -log_x : log_x);
+  const double of_small = std::log1p(small);
+  const double log_wet = is_dry ? log_x + of_small : of_small;  // of 1 + x
+  const double log_dry = is_dry ? of_small : of_small - log_x;  // of 1 + 1/x
+  const double dry = (is_dry ? 1.0 : small) / (1.0 + small);    // x / (1 + x)
+  const double wet = (is_dry ? small : 1.0) / (1.0 + small);    // 1 / (1 + x)
+  const double per_psi = -m * p.n / psi;
+  const double effective = std::exp(-m * log_wet);
+  RetentionState state{.saturation = effective, .capacity = per_psi * dry * effective};
+  // 1 - (1 - S_e^(1/m))^m with S_e^(1/m) = 1 / (1 + x)
+  const double opened = -std::expm1(-m * log_dry);
+  const double root = std::sqrt(effective);
+  state.relative_conductivity = root * opened * opened;
+  state.conductivity_slope =
+      per_psi * root * opened * (0.5 * dry * opened + 2.0 * (1.0 - opened) * wet);
+  if (p.n < 2.0 && psi > -smallest_suction) {
+    const double there = at(p, -smallest_suction).relative_conductivity;
+    state.conductivity_slope = (1.0 - there) / smallest_suction;
+    state.relative_conductivity = 1.0 + state.conductivity_slope * psi;
+  }
+  return state;
+}
+
+double steepest(const RetentionParameters& p) {
+  return -std::pow(1.0 - 1.0 / p.n, 1.0 / p.n) / p.alpha;
 }
 
 constexpr std::array parameters{
@@ -55,9 +61,7 @@ extern const RetentionLaw van_genuchten{
         "S_e = (1 + (-alpha psi)^n)^(-m) with m = 1 - 1/n and k_r = S_e^(1/2) (1 - (1 - "
         "S_e^(1/m))^m)^2",
     .parameters = parameters,
-    .saturation = saturation,
-    .capacity = capacity,
-    .steepest = steepest,
-    .relative_conductivity = relative_conductivity};
+    .at = at,
+    .steepest = steepest};
 
 }  // namespace suffuse::retention
