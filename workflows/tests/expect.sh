@@ -30,15 +30,31 @@ run_make() {
   code=0
   make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" "$@" > "$log" 2>&1 || code=$?
 }
+# said PATTERN: the first match in the log.
 said() { grep -o -- "$1" "$log" | head -1; }
 
 # statuses FOLDER: which runs of a sweep have ended and been looked at, and when.
 statuses() { (cd "$1" && find . \( -name '*.status' -o -name '*.assessed' \) -printf '%P %T@\n' | sort); }
 
+# expect_nothing_new TABLE COMMAND...: the command, called again, makes no run in the folder `out`, and the same table.
+expect_nothing_new() {
+  local before
+  before=$(statuses "$out")
+  cp "$out/$1" "$scratch/table"
+  "${@:2}"
+  expect 'a second call makes nothing' "$before" "$(statuses "$out")"
+  expect 'and the same table' same "$(cmp "$scratch/table" "$out/$1" && echo same)"
+}
+
 # cells TABLE ROW COLUMN...: cells of the row that begins with ROW, by the names of their columns.
 cells() {
   awk -F, -v row="$2" -v wanted="${*:3}" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; n = split(wanted, names, " ") }
     $1 == row { for (k = 1; k <= n; ++k) printf "%s%s", $at[names[k]], k < n ? " " : "\n" }' "$1"
+}
+
+# column NAME: that column of sweep.csv in the folder `out`, its name first, without texts in quotes.
+column() {
+  sed 's/"[^"]*"//g' "$out/sweep.csv" | awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) at = i } { print $at }'
 }
 
 # tree PID: prints the process and all its descendants.
