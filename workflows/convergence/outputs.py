@@ -10,7 +10,7 @@
 import pathlib
 import sys
 
-from common import read_rows
+from common import last_rows
 
 # Columns of the table of runs, from this one on, are results at the end of the run.
 FIRST_RESULT = "eroded"
@@ -28,12 +28,6 @@ WORDS = {
 
 def words_of(name):
     return f"{WORDS[name]} ({name})" if name in WORDS else f"output {name}"
-
-
-def last_rows(path):
-    """The rows of the last time of a table."""
-    rows = read_rows(path)
-    return [row for row in rows if row["t"] == rows[-1]["t"]]
 
 
 def outputs_of(results, row):

@@ -8,9 +8,8 @@ a rate may change by decades and stays positive; otherwise x = (value - start) /
 
 import math
 import re
-import subprocess
 
-from common import InputError, problem, read_scene
+from common import InputError, consult, problem, read_scene, set_options, wrong
 
 SYNTAX = "KEY or KEY:LOW:HIGH, with commas between several"
 # A part of a path like soil."my sand".erosion.rate or boundary[0].head.
@@ -69,31 +68,25 @@ def split_keys(text):
     """Triples of name and bounds as they are written."""
     entries = [entry.strip() for entry in text.split(",") if entry.strip()]
     if not entries:
-        raise InputError([problem("KEYS", "", "nothing", SYNTAX)])
+        raise wrong("KEYS", "", "nothing", SYNTAX)
     keys = []
     for entry in entries:
         name, *bounds = (part.strip() for part in entry.split(":"))
         try:
             low, high = (float(bound) for bound in bounds) if bounds else (-math.inf, math.inf)
         except ValueError:
-            raise InputError([problem("KEYS", "", f"'{entry}'", SYNTAX)]) from None
+            raise wrong("KEYS", "", f"'{entry}'", SYNTAX) from None
         if not name or not low < high or (bounds and not (math.isfinite(low) and math.isfinite(high))):
-            raise InputError([problem("KEYS", "", f"'{entry}'", f"{SYNTAX}, and two numbers, LOW below HIGH")])
+            raise wrong("KEYS", "", f"'{entry}'", f"{SYNTAX}, and two numbers, LOW below HIGH")
         if name in (known for known, _, _ in keys):
-            raise InputError([problem("KEYS", "", f"'{name}' twice", "each key once")])
+            raise wrong("KEYS", "", f"'{name}' twice", "each key once")
         keys.append((name, low, high))
     return keys
 
 
 def check_scene(programs, path, changes):
     """Throws InputError with what the mesher says of the scene with these changes. It makes no mesh."""
-    command = [programs / "suffuse-mesher", path, *(part for change in changes for part in ("--set", change)), "--check"]
-    try:
-        ended = subprocess.run(command, capture_output=True, text=True)
-    except OSError as error:
-        raise InputError([f"{command[0]}: cannot be run: {error.strerror}"]) from None
-    if ended.returncode:
-        raise InputError(ended.stderr.strip().splitlines() or [f"suffuse-mesher ended with exit code {ended.returncode}"])
+    consult(programs / "suffuse-mesher", path, *set_options(changes), "--check")
 
 
 def refuse_unknown(programs, path, name):
@@ -107,7 +100,7 @@ def refuse_unknown(programs, path, name):
 
 def units_of(scene, names, programs):
     """Units by the scene reference, which the mesher prints. That of a rate or a threshold goes with the drive."""
-    said = subprocess.run([programs / "suffuse-mesher", "--scene-reference"], capture_output=True, text=True).stdout
+    said = consult(programs / "suffuse-mesher", "--scene-reference").stdout
     units, section = {}, ""
     for line in said.splitlines():
         if line.startswith("### "):

@@ -9,8 +9,8 @@ import os
 
 from scipy.stats import beta
 
-from levels import (InputError, call, csv_text, named_failures, outcomes, problem, report, rounded, rows_of_sweep, said_beside,
-                    write_changed, write_table)
+from levels import (InputError, call, csv_text, named_failures, outcomes, report, rounded, rows_of_sweep, said_beside,
+                    write_changed, write_table, wrong)
 from assessment import EROSION, SLOPE, Outcome, in_order, spoken
 from common import cell
 from runs import MOST_RUNS, read_runs
@@ -46,7 +46,7 @@ def asked_levels():
     except ValueError:
         finite = False
     if not finite or levels != sorted(set(levels)):
-        raise InputError([problem("LEVELS", "", f"'{text}'" if text else "nothing", "rising numbers with commas between them, m")])
+        raise wrong("LEVELS", "", f"'{text}'" if text else "nothing", "rising numbers with commas between them, m")
     return levels
 
 
@@ -56,7 +56,7 @@ def draws_of(study):
     keys, draws = read_runs(path)
     taken = [key for key in keys if key == study.key or key in study.changes() or study.key.startswith(f"{key}.")]
     if taken:
-        raise InputError([problem(path, taken[0], "a key that this study sets", "other keys: the level is that of LEVELS, others are in SET")])
+        raise wrong(path, taken[0], "a key that this study sets", "other keys: the level is that of LEVELS, others are in SET")
     return keys, draws
 
 
@@ -67,7 +67,7 @@ def rows_of(study):
     study.check_levels("LEVELS", levels)
     keys, draws = draws_of(study)
     if len(draws) * len(levels) > MOST_RUNS:
-        raise InputError([problem("LEVELS", "", f"{len(levels)} levels of {len(draws)} draws", f"at most {MOST_RUNS} runs")])
+        raise wrong("LEVELS", "", f"{len(levels)} levels of {len(draws)} draws", f"at most {MOST_RUNS} runs")
     changes = study.changes()
     table = [[study.key, *changes, *keys]]
     table += [[study.cell(level), *changes.values(), *draw] for draw in draws for level in levels]
