@@ -5,6 +5,7 @@ All pages that README.md and docs/README.md lead to, and all files that these pa
 places, so that links hold. The navigation has the order in which docs/README.md names the pages. Warnings of MkDocs,
 such as a link that leads nowhere, are errors.
 """
+import json
 import os
 import re
 import shutil
@@ -51,8 +52,7 @@ def title(page):
 
 def navigation(pages):
     """Lines of YAML."""
-    quoted = lambda text: '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
-    entry = lambda page: f"      - {quoted(title(page))}: {page}"
+    entry = lambda page: f"      - {json.dumps(title(page), ensure_ascii=False)}: {page}"
     yield "nav:"
     yield "  - Suffuse: README.md"
     yield f"  - Index: {INDEX}"
