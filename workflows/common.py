@@ -69,6 +69,11 @@ def number_of(text, infinite=False):
     return value if math.isfinite(value) or infinite and not math.isnan(value) else None
 
 
+def is_number(value):
+    """Whether a value of a scene is a finite number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
 def cell(value, digits=10):
     return "" if value is None or value != value else f"{value:.{digits}g}"
 

@@ -15,6 +15,7 @@ import tempfile
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
+from assessment import table_in
 from chart import draw
 from common import (InputError, NotDone, cell, consult, csv_text, end_with, find_file, folder_of, number_of, problem, programs_of,
                     read_rows, read_scene, set_options, write_changed, wrong)
@@ -57,11 +58,6 @@ def asked_outputs():
         found = f"'{repeated[0]}' twice" if repeated else "nothing"
         raise wrong("OUTPUTS", "", found, "different names with commas between them")
     return names
-
-
-def parts_of(scene):
-    """The parts geometry, mesh and time of a scene."""
-    return {name: part if isinstance(part := scene.get(name, {}), dict) else {} for name in ("geometry", "mesh", "time")}
 
 
 def refuse_fixed_meshes(path, scene):
@@ -181,7 +177,8 @@ def table_of(sizes, fixed_size, tolerances, fixed_tolerance, inertia):
 
 def prepare(path, folder, programs, first):
     asked_outputs()
-    scene = parts_of(read_scene(path))
+    content = read_scene(path)
+    scene = {name: table_in(content, name) for name in ("geometry", "mesh", "time")}
     refuse_fixed_meshes(path, scene)
     tolerances, fixed_tolerance = tolerances_of(path, scene)
     sizes, fixed_size = sizes_of(path, scene, programs)

@@ -41,16 +41,12 @@ def outputs_of(results, row):
     for name in columns[start:]:
         if row[name]:
             found.setdefault(name, row[name])
-    for table in ("history", "ledger"):
+    for table, number in (("history", ""), ("ledger", ""), ("probes", "probe"), ("sections", "section")):
         for last in last_rows(results / f"{table}.csv"):
+            start = f"{number}[{last[number]}]." if number else ""
             for name, value in last.items():
                 if name not in NO_OUTPUTS:
-                    found.setdefault(name, value)
-    for table, number in (("probes", "probe"), ("sections", "section")):
-        for last in last_rows(results / f"{table}.csv"):
-            for name, value in last.items():
-                if name not in NO_OUTPUTS:
-                    found[f"{number}[{last[number]}].{name}"] = value
+                    found.setdefault(start + name, value)
     return found
 
 

@@ -192,25 +192,20 @@ def search(evaluate, logarithmic, low, high, of_constant):
         except Converged as end:
             return Search(*end.args, True, 1)
 
-    (residuals,) = evaluate([numpy.zeros(len(low))], "start")
-    best = None
-    if residuals is not None:
-        count = len(residuals)
-        best = minimise(numpy.zeros(len(low)))
-    if best is None or sum_of_squares(best.residuals) > max(POOR * of_constant, 1e-12):
+    start = numpy.zeros(len(low))
+    (residuals,) = evaluate([start], "start")
+    count = 0 if residuals is None else len(residuals)
+    best = minimise(start) if count else Search(start, None, False, 1)
+    if sum_of_squares(best.residuals) > max(POOR * of_constant, 1e-12):
         starts = other_starts(logarithmic, low, high)
-        trials = sorted(zip(map(sum_of_squares, evaluate(starts, "other start")), range(len(starts))))
-        if not trials or math.isinf(trials[0][0]):
-            if best is None:
-                raise NoRun
-            return best
-        if best is None or trials[0][0] < sum_of_squares(best.residuals):
-            (residuals,) = evaluate([starts[trials[0][1]]], "other start")
-            count = len(residuals)
-            other = minimise(starts[trials[0][1]])
-            if best is None or sum_of_squares(other.residuals) < sum_of_squares(best.residuals):
-                best = other
+        found = evaluate(starts, "other start")
+        least, place = min(zip(map(sum_of_squares, found), range(len(starts))), default=(math.inf, None))
+        if least < sum_of_squares(best.residuals):
+            count = len(found[place])
+            best = min(best, minimise(starts[place]), key=lambda end: sum_of_squares(end.residuals))
             best.starts = 2
+        elif best.residuals is None:
+            raise NoRun
     return best
 
 

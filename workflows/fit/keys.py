@@ -9,9 +9,9 @@ a rate may change by decades and stays positive; otherwise x = (value - start) /
 import math
 import re
 
-from common import InputError, consult, problem, read_scene, set_options, wrong
+from common import InputError, consult, is_number, number_of, problem, read_scene, set_options, wrong
 
-SYNTAX = "KEY or KEY:LOW:HIGH, with commas between several"
+SYNTAX = "KEY or KEY:LOW:HIGH with two numbers, LOW below HIGH, and commas between several"
 # A part of a path like soil."my sand".erosion.rate or boundary[0].head.
 PART = re.compile(r'"([^"]+)"|([^."\[\]]+)|\[(\d+)\]')
 # Values are written with this many digits, and the search takes them as they are written.
@@ -60,10 +60,6 @@ def value_in(scene, path):
     return None
 
 
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-
-
 def split_keys(text):
     """Triples of name and bounds as they are written."""
     entries = [entry.strip() for entry in text.split(",") if entry.strip()]
@@ -72,15 +68,12 @@ def split_keys(text):
     keys = []
     for entry in entries:
         name, *bounds = (part.strip() for part in entry.split(":"))
-        try:
-            low, high = (float(bound) for bound in bounds) if bounds else (-math.inf, math.inf)
-        except ValueError:
-            raise wrong("KEYS", "", f"'{entry}'", SYNTAX) from None
-        if not name or not low < high or (bounds and not (math.isfinite(low) and math.isfinite(high))):
-            raise wrong("KEYS", "", f"'{entry}'", f"{SYNTAX}, and two numbers, LOW below HIGH")
+        ends = [number_of(bound) for bound in bounds] or [-math.inf, math.inf]
+        if not name or len(ends) != 2 or None in ends or not ends[0] < ends[1]:
+            raise wrong("KEYS", "", f"'{entry}'", SYNTAX)
         if name in (known for known, _, _ in keys):
             raise wrong("KEYS", "", f"'{name}' twice", "each key once")
-        keys.append((name, low, high))
+        keys.append((name, *ends))
     return keys
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """How probable is failure at a level? `make -C workflows fragility` calls this.
 
-Writes table.csv, the sweep's table: every draw at every level, fragility.csv, draws.csv, report.md and fragility.svg. LEVELS, SWEEP, BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1
-if runs have no answer.
+Writes table.csv, the sweep's table: every draw at every level, fragility.csv, draws.csv, report.md and fragility.svg. LEVELS, SWEEP,
+BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
 """
 
 import os
@@ -12,7 +12,7 @@ from scipy.stats import beta
 from levels import (InputError, call, csv_text, named_failures, outcomes, report, rounded, rows_of_sweep, said_beside,
                     write_changed, write_table, wrong)
 from assessment import EROSION, SLOPE, Outcome, in_order, spoken
-from common import cell
+from common import cell, number_of
 from runs import MOST_RUNS, read_runs
 from svg import CURVES, Panel, document
 
@@ -40,12 +40,9 @@ def bounds(failures, runs):
 
 def asked_levels():
     text = os.environ.get("LEVELS", "").strip()
-    try:
-        levels = [rounded(float(part)) for part in text.split(",")]
-        finite = all(abs(level) < float("inf") for level in levels)
-    except ValueError:
-        finite = False
-    if not finite or levels != sorted(set(levels)):
+    numbers = [number_of(part) for part in text.split(",")]
+    levels = [rounded(number) for number in numbers if number is not None]
+    if len(levels) < len(numbers) or levels != sorted(set(levels)):
         raise wrong("LEVELS", "", f"'{text}'" if text else "nothing", "rising numbers with commas between them, m")
     return levels
 

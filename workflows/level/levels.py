@@ -16,7 +16,7 @@ workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
 from assessment import (SLOPE, STATES, WITHOUT_STRENGTH, is_assessed, outcomes_of, reduction_options, said_of_options, said_of_others, table_in,
                         with_absent)
-from common import (InputError, csv_text, end_with, find_file, folder_of, number_of, read, read_csv, read_rows, read_scene,
+from common import (InputError, csv_text, end_with, find_file, folder_of, is_number, number_of, read, read_csv, read_rows, read_scene,
                     write_changed, wrong)
 from sweep import make, read_status, refuse_foreign
 
@@ -62,10 +62,6 @@ def changes_in(variable):
 def toml(value):
     """A value of a scene as a text of one line. Tables apart, what JSON writes is TOML, except inf."""
     return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def pairs_of_file(path):

@@ -211,11 +211,8 @@ def reduction_options(scene, keys, states):
             raise wrong("REGION", "", f"'{name}'", f"soils with a strength, with spaces between several: {known}", strong)
         options += ["--region", name]
     if depth:
-        try:
-            value = float(depth)
-        except ValueError:
-            value = math.nan
-        if not 0.0 < value < math.inf:
+        value = number_of(depth)
+        if value is None or value <= 0.0:
             raise wrong("DEEPER", "", f"'{depth}'", "a depth above 0, m")
         if "gravity" not in keys and not any(scene.get("gravity", [0.0])):
             raise wrong("DEEPER", "", f"'{depth}'", "a scene with gravity; this one has none")
