@@ -30,8 +30,20 @@ run_make() {
   code=0
   make -C "$workflows" "${make_arguments[@]}" OUT="$work/o ut" "$@" > "$log" 2>&1 || code=$?
 }
+# run_script SCRIPT VARIABLE...: likewise a script that make calls, without the Makefile, which takes seconds to read.
+run_script() {
+  code=0
+  env OUT_FOLDER="$work/o ut" PROGRAMS="$programs" MAKE=make TOLERANCE=1e-12 CALLED_FROM="$PWD" "${@:2}" \
+    /usr/bin/python3 "$workflows/$1" > "$log" 2>&1 || code=$?
+}
+
 # said PATTERN: the first match in the log.
 said() { grep -o -- "$1" "$log" | head -1; }
+
+# inventory FOLDER: paths, times (to the nanosecond) and sizes of all files, without hidden ones, which are notes of make.
+inventory() { find "$1" -type f -not -name '.*' -printf '%P %T@ %s\n' | sort; }
+# redone FOLDER: paths of the files that are not as in the inventory `before`.
+redone() { comm -13 <(echo "$before") <(inventory "$1") | cut -d' ' -f1; }
 
 # statuses FOLDER: which runs of a sweep have ended and been looked at, and when.
 statuses() { (cd "$1" && find . \( -name '*.status' -o -name '*.assessed' \) -printf '%P %T@\n' | sort); }

@@ -7,12 +7,7 @@ set -euo pipefail
 cd "$work/my scenes"
 out="$work/o ut/fit/test"
 
-# fit VARIABLE...: sets `code` to the exit code and writes the output to log. Without make's Makefile, which takes seconds to read.
-fit() {
-  code=0
-  env SCENE="a column.toml" OUT_FOLDER="$work/o ut" NAME=test PROGRAMS="$programs" MAKE=make TOLERANCE=1e-12 CALLED_FROM="$PWD" "$@" \
-    /usr/bin/python3 "$workflows/fit/fit.py" > "$log" 2>&1 || code=$?
-}
+fit() { run_script fit/fit.py SCENE="a column.toml" NAME=test "$@"; }
 
 cp "$workflows/fit/column.geo" .
 sed 's/^end .*/end = 2400.0/; s/^snapshot_every.*/snapshot_every = 2400.0/' "$workflows/fit/column.toml" > "a column.toml"

@@ -4,20 +4,13 @@
 set -euo pipefail
 
 . "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
-work=$scratch
+work=$scratch out=$scratch/out
 
 # make_well TARGET VARIABLE...: make in folders whose names have no spaces; fails unless it ends well.
 make_well() {
-  run_make "$@" OUT="$work/out" PAPER="$work/paper"
+  run_make "$@" OUT="$out" PAPER="$work/paper"
   [ "$code" -eq 0 ] || { cat "$log"; echo "FAILED: make $*"; exit 1; }
 }
-
-# Paths, times (to the nanosecond) and sizes of all files made so far. Hidden files are notes of
-# make.
-inventory() { find "$work/out" -type f -not -name '.*' -printf '%P %T@ %s\n' | sort; }
-
-# redone: the files that are not as in the inventory `before`, one per line, by path below out/.
-redone() { comm -13 <(echo "$before") <(inventory) | cut -d' ' -f1; }
 
 # Everything made from one run, and from one scene, except the insides of its results folder.
 made_by_run() { printf '%s\n' "$1".{case.h5,inputs,status} "$1".{history,ledger}.csv "$1".results/run.json; }
@@ -28,12 +21,12 @@ insides_removed() { grep -v '\.results/[^r]\|\.results/regions'; }
 
 # expect_redone WHAT FILES TARGET VARIABLE...: make makes these files, insides of results folders left out, and no others.
 expect_redone() {
-  before=$(inventory)
+  before=$(inventory "$out")
   make_well "${@:3}"
-  expect "$1" "$(sort <<< "$2")" "$(if [ -n "$2" ]; then redone | insides_removed | sort; else redone; fi)"
+  expect "$1" "$(sort <<< "$2")" "$(if [ -n "$2" ]; then redone "$out" | insides_removed | sort; else redone "$out"; fi)"
 }
 
-mkdir -p "$work/paper" "$work/out"
+mkdir -p "$work/paper" "$out"
 cp "$workflows/paper/paper-says.csv" "$work/paper"
 for scene in "$workflows"/paper/*.toml; do
   sed 's/^end .*/end = 4.0/' "$scene" > "$work/paper/$(basename "$scene")"
@@ -65,14 +58,14 @@ expect_redone 'a change of one variant makes it, its figure and the tables, and 
 touch "$work/paper/paper-says.csv"
 expect_redone 'touching what the paper says makes the table of it, alone' paper/paper.csv paper
 
-before=$(inventory)
-rm "$work/out/paper/sp-constant-table.status"
-sed -i 's/"status": *"done"/"status": "running"/' "$work/out/paper/sp-constant-table.results/run.json"
+before=$(inventory "$out")
+rm "$out/paper/sp-constant-table.status"
+sed -i 's/"status": *"done"/"status": "running"/' "$out/paper/sp-constant-table.results/run.json"
 make_well paper
-expect 'a run that did not finish is taken up' paper/sp-constant-table.results/run.json "$(redone | grep run.json)"
+expect 'a run that did not finish is taken up' paper/sp-constant-table.results/run.json "$(redone "$out" | grep run.json)"
 expect 'and goes on from its last snapshot' 'going on from t = 4' "$(grep -o 'going on from t = [0-9]*' "$log")"
 
-rm "$work/out/paper/sp-constant-figure.masses.svg"
+rm "$out/paper/sp-constant-figure.masses.svg"
 expect_redone 'a figure removed is drawn again, alone' paper/sp-constant-figure.masses.svg paper
 
 mkdir "$work/elsewhere"
@@ -81,17 +74,17 @@ cd "$work/elsewhere"
 expect_redone 'study works on a scene elsewhere' "$(made_from study/mine; echo study/mine.html)" study SCENE=mine.toml
 expect_redone 'a second study of the same scene makes nothing' '' study SCENE="$work/elsewhere/mine.toml"
 
-before=$(inventory)
+before=$(inventory "$out")
 mkdir "$work/another"
 cp "$work/elsewhere/mine.toml" "$work/another/mine.toml"
 touch --date=yesterday "$work/another/mine.toml"
 make_well study SCENE="$work/another/mine.toml"
-expect 'another scene of the same name is not taken for the first' study/mine.results/run.json "$(redone | grep run.json)"
+expect 'another scene of the same name is not taken for the first' study/mine.results/run.json "$(redone "$out" | grep run.json)"
 
 sed -i 's/^porosity .*/porosity = 1.3/' "$work/another/mine.toml"
-before=$(inventory)
-run_make study SCENE="$work/another/mine.toml" OUT="$work/out"
+before=$(inventory "$out")
+run_make study SCENE="$work/another/mine.toml" OUT="$out"
 expect 'a wrong scene stops make' 2 "$code"
-expect 'and leaves what stood there' '' "$(redone | grep -v '\.inputs$\|\.log$\|\.status$')"
+expect 'and leaves what stood there' '' "$(redone "$out" | grep -v '\.inputs$\|\.log$\|\.status$')"
 
 finish 'what make redoes'

@@ -198,30 +198,29 @@ expect 'an unknown FACTOR' "2 FACTOR: got '2'; expected 1, all, start or checks"
 run_make sweep SCENE="a column.toml" SWEEP=heads.csv
 expect 'without FACTOR no such columns' '0 ' "$code $(head -1 "$out/sweep.csv" | grep -o 'factor' || true)"
 
+# refused WHAT MESSAGE SCRIPT VARIABLE...
 refused() {
-  local what=$1 message=$2
-  shift 2
-  run_make "$@" NAME=refused
-  expect "$what" "2 $message" "$code $(grep -o 'critical_level.py: .*\|fragility.py: .*' "$log" | head -1)"
+  run_script "level/$3.py" NAME=refused "${@:4}"
+  expect "$1" "2 $3.py: $2" "$code $(grep -m1 "^$3.py: " "$log")"
 }
-refused 'FROM above TO' 'critical_level.py: FROM: got 3, and TO=1; expected a level below TO' critical-level "${column[@]}" FROM=3 TO=1
-refused 'no TO' 'critical_level.py: TO: got nothing; expected a number' critical-level "${column[@]}" FROM=3
+refused 'FROM above TO' 'FROM: got 3, and TO=1; expected a level below TO' critical_level "${column[@]}" FROM=3 TO=1
+refused 'no TO' 'TO: got nothing; expected a number' critical_level "${column[@]}" FROM=3
 refused 'a boundary without a head' \
-  'critical_level.py: BOUNDARY: got "left", which has no head; expected a boundary with a head: "bottom" or "top"' \
-  critical-level "${column[@]}" BOUNDARY=left FROM=1 TO=3
-refused 'levels that fall' "fragility.py: LEVELS: got '3,1'; expected rising numbers with commas between them, m" \
+  'BOUNDARY: got "left", which has no head; expected a boundary with a head: "bottom" or "top"' \
+  critical_level "${column[@]}" BOUNDARY=left FROM=1 TO=3
+refused 'levels that fall' "LEVELS: got '3,1'; expected rising numbers with commas between them, m" \
   fragility "${column[@]}" LEVELS=3,1 SWEEP=draws.csv
-refused 'draws of the head' "fragility.py: $PWD/heads.csv: boundary[0].head: got a key that this study sets; expected other keys: \
+refused 'draws of the head' "$PWD/heads.csv: boundary[0].head: got a key that this study sets; expected other keys: \
 the level is that of LEVELS, others are in SET" fragility "${column[@]}" LEVELS=1,3 SWEEP=heads.csv
-refused 'a depth that is none' "critical_level.py: DEEPER: got '0'; expected a depth above 0, m" \
-  critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1 TO=3 DEEPER=0
+refused 'a depth that is none' "DEEPER: got '0'; expected a depth above 0, m" \
+  critical_level SCENE=lifted.toml BOUNDARY=bottom FROM=1 TO=3 DEEPER=0
 refused 'soil that does not fail' \
-  "fragility.py: REGION: got 'specimen'; expected soils with a strength, with spaces between several: a scene with such a soil; this one has none" \
+  "REGION: got 'specimen'; expected soils with a strength, with spaces between several: a scene with such a soil; this one has none" \
   fragility "${column[@]}" LEVELS=1,3 SWEEP=draws.csv REGION=specimen
 expect 'nothing is written' none "$(ls "$work/o ut/critical-level/refused" "$work/o ut/fragility/refused" 2> /dev/null || echo none)"
-refused 'keys that the mesher refuses' "critical_level.py: no run can be made: --set soil.specimen.porosity=2: soil.specimen.porosity: \
+refused 'keys that the mesher refuses' "no run can be made: --set soil.specimen.porosity=2: soil.specimen.porosity: \
 got 2; expected a number with 0 < n_0 < 1" \
-  critical-level "${column[@]}" FROM=1.1 TO=3 SCAN=2 SET=soil.specimen.porosity=2
+  critical_level "${column[@]}" FROM=1.1 TO=3 SCAN=2 SET=soil.specimen.porosity=2
 
 "$workflows/tests/level.py" || failures=$((failures + 1))
 finish levels

@@ -10,9 +10,7 @@ cd "$work/my scenes"
 export MAKE='make TEST=1'
 run_sweep() { run_make sweep SCENE="a column.toml" SWEEP="of rates.csv" "$@"; }
 
-# Paths, times and sizes of what the runs made.
-inventory() { (cd "$out" && find . -type f -path './0*' -not -name '.*' -printf '%P %T@ %s\n' | sort); }
-redone() { comm -13 <(echo "$1") <(inventory) | cut -d' ' -f1 | grep 'run.json\|status' || true; }
+runs_redone() { redone "$out" | grep 'run.json\|status' || true; }
 
 sed 's/^end *=.*/end = 4.0/' "$workflows/stress/kill.toml" > "a column.toml"
 cat > "of rates.csv" <<'END'
@@ -47,15 +45,15 @@ expect 'figures' "$(printf '%s\n' distribution.png over-soil.specimen.erosion.ra
 expect 'a run has its case, results and ledger' "$(printf '%s\n' 0001.case.h5 0001.inputs 0001.ledger.csv 0001.log \
   0001.results 0001.status)" "$(ls "$out/0001")"
 
-before=$(inventory)
+before=$(inventory "$out")
 cp "$out/sweep.csv" "$work/table"
 run_sweep
 expect 'a second call says the same' 2 "$code"
-expect 'and makes nothing' '' "$(redone "$before")"
+expect 'and makes nothing' '' "$(runs_redone)"
 
 sed -i 's/^1.0,/0.5,/' "of rates.csv"
 run_sweep
-expect 'another row makes that run' "$(printf '%s\n' 0004/0004.results/run.json 0004/0004.status)" "$(redone "$before")"
+expect 'another row makes that run' "$(printf '%s\n' 0004/0004.results/run.json 0004/0004.status)" "$(runs_redone)"
 sed -i 's/^0.5,/1.0,/' "of rates.csv"
 run_sweep
 expect 'the row as it was, the table as it was' same "$(cmp "$work/table" "$out/sweep.csv" && echo same)"
@@ -83,9 +81,9 @@ expect 'killed and called again, the same table' same "$(cmp "$work/table" "$out
 
 rm "$out/0002/0002.status"
 sed -i 's/"status": *"done"/"status": "running"/' "$out/0002/0002.results/run.json"
-before=$(inventory)
+before=$(inventory "$out")
 run_sweep
-expect 'a run that was stopped goes on alone' "$(printf '%s\n' 0002/0002.results/run.json 0002/0002.status)" "$(redone "$before")"
+expect 'a run that was stopped goes on alone' "$(printf '%s\n' 0002/0002.results/run.json 0002/0002.status)" "$(runs_redone)"
 expect 'from where it stood' '"resumed_at": 4' "$(grep -o '"resumed_at": *[0-9]*' "$out/0002/0002.results/run.json")"
 
 sed -i '/^-1.0/d; /^1.0/d' "of rates.csv"
