@@ -9,6 +9,7 @@ import os
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import time
@@ -81,6 +82,12 @@ def cell(value, digits=10):
 def median(values):
     """The lower one of two in the middle."""
     return sorted(values, key=float)[(len(values) - 1) // 2]
+
+
+def power(pairs):
+    """The exponent b of y = a x^b, by least squares; None of fewer than two pairs."""
+    logarithms = [[math.log(value) for value in values] for values in zip(*pairs)]
+    return statistics.linear_regression(*logarithms).slope if len(pairs) > 1 else None
 
 
 # --- Documents ---------------------------------------------------------------------------------------------

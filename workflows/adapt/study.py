@@ -12,7 +12,6 @@ import dataclasses
 import math
 import os
 import re
-import statistics
 import sys
 from pathlib import Path
 
@@ -21,7 +20,7 @@ from scipy.special import ellipk
 HERE = Path(__file__).resolve().parent
 sys.path.insert(1, str(HERE.parent))
 import svg
-from common import call, csv_text, empty_folder, last_rows, markdown, put_between, read_rows, run_json, timed
+from common import call, csv_text, empty_folder, last_rows, markdown, power, put_between, read_rows, run_json, timed
 
 ERRORS = (0.01, 0.001)
 HALVINGS = 4
@@ -163,13 +162,6 @@ class Study:
         (self.out / "meshes.csv").write_text(csv_text([header, *rows]), encoding="utf-8")
 
 
-def slope(meshes):
-    """Least squares of log(gap) over log(elements); None of fewer than two meshes."""
-    if len(meshes) < 2:
-        return None
-    return statistics.linear_regression(*([math.log(value) for value in values] for values in zip(*((m.elements, m.gap) for m in meshes)))).slope
-
-
 class Family:
     """A family of meshes at an error that may lie between two of them or beyond the finest: the number of elements,
     and the wall time of mesher and solver."""
@@ -222,7 +214,7 @@ def check(study, section):
         sentence = f"{name}: mesh.error = {error}: {100 * last.error:.3g} % with {last.elements} elements"
         expected = error < section.reaches
         right.append(verdict(last.error <= error, sentence, "not met, as expected: " if expected else "WRONG: ") or expected)
-    fall = slope(study.of(section, f"adapted to {ERRORS[-1]}")[1:])
+    fall = power([(mesh.elements, mesh.gap) for mesh in study.of(section, f"adapted to {ERRORS[-1]}")[1:]])
     if section.dimension == 2:
         right.append(verdict(fall is not None and fall <= LEAST_SLOPE, f"{name}: the gap falls with the power "
                              f"{'of one adapted mesh: none' if fall is None else f'{fall:.3g}'} of the elements"))
@@ -248,7 +240,7 @@ def report(study, sections):
             # Where the loop stops before, the families are compared at the error that it reached.
             compared = error if met else last.error
             uniform, graded = (Family(study.of(section, kind), compared) for kind in ("uniform", "graded"))
-            fall = slope(own[1:])
+            fall = power([(mesh.elements, mesh.gap) for mesh in own[1:]])
             title = section.words + (", 3D" if section.dimension == 3 else "") if error == ERRORS[0] else ""
             rows.append([title, f"{100 * error:g} %", len(own), count(last.elements), f"{100 * last.error:.2g} %{'' if met else ', **not met**'}",
                          seconds_text(last.loop_seconds), seconds_text(last.seconds), uniform.words, graded.words,

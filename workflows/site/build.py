@@ -82,9 +82,9 @@ def main():
                                  f"site_dir: {out / 'site'}", *navigation(sorted(found))]) + "\n")
     done = subprocess.run(["mkdocs", "build", "--strict", "--config-file", str(config)], check=False, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
+    if done.returncode:
         print("\n".join(line for line in done.stdout.splitlines() if re.search("WARNING|ERROR|Abort", line)))
-    if done.returncode == 0:
+    else:
         print(f"The site is {out / 'site'}; to search in it: python3 -m http.server --directory {out / 'site'}")
     return done.returncode
 

@@ -92,7 +92,6 @@ PINNED_LATIN_HYPERCUBE = ["0.6128736991", "0.7781635443", "0.2918221388"]
 PINNED_LOGNORMAL = ["0.007637445206", "0.0253481138", "0.03726107624"]
 PINNED_NORMAL = ["0.2829463443", "0.2874452831", "0.3041719825"]
 HEADER = "key,distribution,mean,deviation,min,max"
-LISTED = "a,b\n1,2\n"
 SAMPLED = f"runs,2\nseed,1\n{HEADER}\n"
 
 # Texts of a table, and the messages about them; TABLE stands for its path.
