@@ -8,6 +8,8 @@ import math
 import os
 import pathlib
 import re
+import shutil
+import statistics
 import subprocess
 import sys
 import time
@@ -36,13 +38,27 @@ def read_rows(path):
     return [dict(zip(names, row)) for row in rows if row and not row[0].startswith("#")]
 
 
-def write_changed(path, text):
-    """Writes a file, unless it has this text already: then it keeps its time."""
-    if path.is_file() and path.read_text(encoding="utf-8", errors="replace") == text:
-        return
+def read(path):
+    return path.read_text(encoding="utf-8", errors="replace")
+
+
+def write(path, text):
+    """Writes a file, which is never there in part."""
     pending = path.with_name(path.name + ".new")
     pending.write_text(text, encoding="utf-8")
     pending.replace(path)
+
+
+def write_changed(path, text):
+    """Writes a file, unless it has this text already: then it keeps its time."""
+    if not path.is_file() or read(path) != text:
+        write(path, text)
+
+
+def last_rows(path):
+    """The rows of the last time of a table."""
+    rows = read_rows(path)
+    return [row for row in rows if row["t"] == rows[-1]["t"]]
 
 
 def number_of(text, infinite=False):
@@ -54,6 +70,11 @@ def number_of(text, infinite=False):
     return value if math.isfinite(value) or infinite and not math.isnan(value) else None
 
 
+def is_number(value):
+    """Whether a value of a scene is a finite number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
 def cell(value, digits=10):
     return "" if value is None or value != value else f"{value:.{digits}g}"
 
@@ -61,6 +82,12 @@ def cell(value, digits=10):
 def median(values):
     """The lower one of two in the middle."""
     return sorted(values, key=float)[(len(values) - 1) // 2]
+
+
+def power(pairs):
+    """The exponent b of y = a x^b, by least squares; None of fewer than two pairs."""
+    logarithms = [[math.log(value) for value in values] for values in zip(*pairs)]
+    return statistics.linear_regression(*logarithms).slope if len(pairs) > 1 else None
 
 
 # --- Documents ---------------------------------------------------------------------------------------------
@@ -91,11 +118,31 @@ def call(*command, ok=(0,), **options):
     return ended
 
 
+def consult(*command, **options):
+    """Calls a program. Throws InputError with what it says if it refuses its input, and NotDone where it fails."""
+    try:
+        ended = subprocess.run([str(part) for part in command], capture_output=True, text=True, **options)
+    except OSError as error:
+        raise NotDone([f"{command[0]}: cannot be run: {error.strerror}"]) from None
+    if ended.returncode == 2:
+        raise InputError([ended.stderr.strip()])
+    if ended.returncode:
+        raise NotDone([f"{command[0]} ended with exit code {ended.returncode}", ended.stderr.strip()])
+    return ended
+
+
 def timed(*command, **options):
     """Wall time of a program, and what `call` returns."""
     begin = time.perf_counter()
     ended = call(*command, **options)
     return time.perf_counter() - begin, ended
+
+
+def empty_folder(folder):
+    """Makes a folder, without what an earlier call left in it."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    return folder
 
 
 def set_options(changes):
@@ -163,6 +210,11 @@ def problem(where, key, found, expected, known=()):
     return ": ".join(parts + [f"got {found}; expected {expected}"]) + (f"; did you mean {close[0]}?" if close else "")
 
 
+def wrong(*arguments):
+    """One problem, to be raised."""
+    return InputError([problem(*arguments)])
+
+
 def read_scene(path):
     try:
         return tomllib.loads(pathlib.Path(path).read_text(encoding="utf-8-sig"))
@@ -174,7 +226,7 @@ def find_file(variable):
     """The path of the file that a variable of make names, relative to the folder where make was called, or to workflows/."""
     value, called_from = os.environ.get(variable, ""), os.environ["CALLED_FROM"]
     if not value:
-        raise InputError([f"{variable}: got nothing; expected a file: make -C workflows TARGET {variable}=FILE"])
+        raise wrong(variable, "", "nothing", f"a file: make -C workflows TARGET {variable}=FILE")
     for folder in (pathlib.Path(called_from), WORKFLOWS):
         if (folder / value).is_file():
             return (folder / value).resolve()

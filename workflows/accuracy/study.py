@@ -19,7 +19,7 @@ import numpy
 
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(here.parent))
-from common import call, estimate_of, markdown, median, put_between, read_rows, run_json, set_options
+from common import call, empty_folder, estimate_of, markdown, median, put_between, read_rows, run_json, set_options
 
 # --- Known values ------------------------------------------------------------------------------------------
 
@@ -195,9 +195,7 @@ def measure(programs, problem, out, short):
     if short and problem == "fines-constant":
         limit, repetitions, once = 10, 3, 0.5
     growth = 16  # a run of the next size takes 8 times as long, or a little more
-    work = out / f"{problem}.work"
-    shutil.rmtree(work, ignore_errors=True)
-    work.mkdir(parents=True)
+    work = empty_folder(out / f"{problem}.work")
     case, results = work / "run.case.h5", work / "run.results"
     lines, left_out, last = [], [], {}
     for scheme, size, count, tolerance, keys in variants(problem, short):

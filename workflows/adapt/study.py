@@ -12,15 +12,16 @@ import dataclasses
 import math
 import os
 import re
-import shutil
-import statistics
 import sys
 from pathlib import Path
+
+from scipy.special import ellipk
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(1, str(HERE.parent))
 import svg
-from common import call, csv_text, markdown, put_between, read_rows, run_json, timed
+from common import call, csv_text, empty_folder, last_rows, markdown, power, put_between, read_rows, run_json, timed
+
 ERRORS = (0.01, 0.001)
 HALVINGS = 4
 GRADING = 1 / 16  # size at corners, feet and ends over that elsewhere
@@ -28,14 +29,6 @@ MOST_UNIFORM = {2: 3e5, 3: 2e5}
 ROUND_OFF = 1e-10
 LEAST_SLOPE = -0.85
 SHARE_OF_UNIFORM = 0.1
-
-
-def complete_integral(m):
-    """K(m), m the square of the modulus, by the arithmetic-geometric mean."""
-    a, b = 1.0, math.sqrt(1.0 - m)
-    while abs(a - b) > 1e-15 * a:
-        a, b = 0.5 * (a + b), math.sqrt(a * b)
-    return math.pi / (2.0 * a)
 
 
 def discharge_under_base(half_width, depth):
@@ -46,7 +39,7 @@ def discharge_under_base(half_width, depth):
     cross-ratio is m.
     """
     m = math.tanh(math.pi * half_width / (2.0 * depth)) ** 2
-    return complete_integral(1.0 - m) / (2.0 * complete_integral(m))
+    return float(ellipk(1.0 - m) / (2.0 * ellipk(m)))
 
 
 # exact: the discharge, m3/s per m, where it is known; reaches: the least error that is expected within mesh.max_elements.
@@ -114,14 +107,11 @@ class Study:
     @staticmethod
     def sum_of_outflows(results):
         """Where a boundary lets liquid in and out history.csv has no interval: the boundaries have."""
-        rows = read_rows(results / "boundaries.csv")
-        rows = [r for r in rows if r["t"] == rows[-1]["t"] and float(r["discharge"]) > 0.0]
-        return sum(float(r["discharge_low"]) for r in rows), sum(float(r["discharge_high"]) for r in rows)
+        rows = [row for row in last_rows(results / "boundaries.csv") if float(row["discharge"]) > 0.0]
+        return tuple(sum(float(row[name]) for row in rows) for name in ("discharge_low", "discharge_high"))
 
     def adapt(self, section, error):
-        folder = self.out / section.name / f"adapted-{error}"
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
+        folder = empty_folder(self.out / section.name / f"adapted-{error}")
         stem = folder / section.name
         seconds, done = timed(HERE.parent / "adapt.py", self.programs, HERE / f"{section.name}.toml", stem, "--set", f"mesh.error={error}",
                               ok=(0, 3), env=os.environ | {"KEEP_MESHES": "1"})
@@ -137,9 +127,7 @@ class Study:
 
     def halve(self, section, kind, grading):
         """The mesh of the scene, and meshes of half the sizes, a quarter and so on."""
-        folder = self.out / section.name / kind
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
+        folder = empty_folder(self.out / section.name / kind)
         scene = (HERE / f"{section.name}.toml").read_text(encoding="utf-8")
         geometry = (HERE / f"{section.name}.geo").read_text(encoding="utf-8")
         start = float(re.search(r"^h = (.*);$", geometry, re.M).group(1))
@@ -172,13 +160,6 @@ class Study:
         rows = [[m.section.name, m.kind, m.number, m.elements, m.low, m.high, f"{m.error:.6g}", m.section.exact, f"{m.seconds:.3f}",
                  "" if m.loop_seconds is None else f"{m.loop_seconds:.3f}"] for m in self.meshes]
         (self.out / "meshes.csv").write_text(csv_text([header, *rows]), encoding="utf-8")
-
-
-def slope(meshes):
-    """Least squares of log(gap) over log(elements); None of fewer than two meshes."""
-    if len(meshes) < 2:
-        return None
-    return statistics.linear_regression(*([math.log(value) for value in values] for values in zip(*((m.elements, m.gap) for m in meshes)))).slope
 
 
 class Family:
@@ -233,7 +214,7 @@ def check(study, section):
         sentence = f"{name}: mesh.error = {error}: {100 * last.error:.3g} % with {last.elements} elements"
         expected = error < section.reaches
         right.append(verdict(last.error <= error, sentence, "not met, as expected: " if expected else "WRONG: ") or expected)
-    fall = slope(study.of(section, f"adapted to {ERRORS[-1]}")[1:])
+    fall = power([(mesh.elements, mesh.gap) for mesh in study.of(section, f"adapted to {ERRORS[-1]}")[1:]])
     if section.dimension == 2:
         right.append(verdict(fall is not None and fall <= LEAST_SLOPE, f"{name}: the gap falls with the power "
                              f"{'of one adapted mesh: none' if fall is None else f'{fall:.3g}'} of the elements"))
@@ -259,7 +240,7 @@ def report(study, sections):
             # Where the loop stops before, the families are compared at the error that it reached.
             compared = error if met else last.error
             uniform, graded = (Family(study.of(section, kind), compared) for kind in ("uniform", "graded"))
-            fall = slope(own[1:])
+            fall = power([(mesh.elements, mesh.gap) for mesh in own[1:]])
             title = section.words + (", 3D" if section.dimension == 3 else "") if error == ERRORS[0] else ""
             rows.append([title, f"{100 * error:g} %", len(own), count(last.elements), f"{100 * last.error:.2g} %{'' if met else ', **not met**'}",
                          seconds_text(last.loop_seconds), seconds_text(last.seconds), uniform.words, graded.words,

@@ -4,6 +4,7 @@ suffuse-post draws tables of results folders. So each curve is written as histor
 the coarsest run. A diamond around each value is part of its curve.
 """
 
+import math
 import pathlib
 import re
 import shutil
@@ -17,23 +18,13 @@ COPIED = ("run.json", "mesh.hdf.series", "solid.hdf.series", "liquid.hdf.series"
 MARK_X, MARK_Y = 0.015, 0.02
 
 
-def scaled(low, high, logarithmic):
-    """A function that moves a value by a share of the axis."""
-    if logarithmic:
-        return lambda value, share: value * (high / low) ** share
-    return lambda value, share: value + (high - low) * share
-
-
 def with_diamonds(points, logarithmic_y):
     """A line through points of a logarithmic x with a diamond around each."""
-    x, y = [x for x, _ in points], [y for _, y in points]
-    move_x, move_y = scaled(min(x), max(x), True), scaled(min(y), max(y), logarithmic_y)
-    line = []
-    for px, py in points:
-        right, left = move_x(px, MARK_X), move_x(px, -MARK_X)
-        above, below = move_y(py, MARK_Y), move_y(py, -MARK_Y)
-        line += [(px, py), (right, py), (px, above), (left, py), (px, below), (right, py), (px, py)]
-    return line
+    place, value = (math.log, math.exp) if logarithmic_y else (float, float)
+    along, up = [math.log(x) for x, _ in points], [place(y) for _, y in points]
+    width, height = MARK_X * (max(along) - min(along)), MARK_Y * (max(up) - min(up))
+    corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (1, 0), (0, 0))
+    return [(math.exp(a + i * width), value(b + j * height)) for a, b in zip(along, up) for i, j in corners]
 
 
 def curves_of(series, values, found):

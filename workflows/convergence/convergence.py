@@ -10,15 +10,15 @@ import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
+from assessment import table_in
 from chart import draw
-from common import (InputError, NotDone, cell, csv_text, end_with, find_file, folder_of, number_of, problem, programs_of, read_rows,
-                    read_scene, set_options, write_changed)
+from common import (InputError, NotDone, cell, consult, csv_text, end_with, find_file, folder_of, number_of, problem, programs_of,
+                    read_rows, read_scene, set_options, write_changed, wrong)
 from outputs import outputs_of, unit_of, words_of
 from richardson import NEGLIGIBLE, ORDERS_OF_SIZE, ORDERS_OF_TOLERANCE, Estimate, estimate
 from sweep import make
@@ -45,9 +45,9 @@ def asked_numbers(variable, largest):
     for text, number in zip(texts, numbers):
         if number is None or not 0.0 < number <= largest:
             bound = "" if largest == float("inf") else f" up to {largest:g}"
-            raise InputError([problem(variable, "", f"'{text}'", f"numbers above 0{bound} with commas between them")])
+            raise wrong(variable, "", f"'{text}'", f"numbers above 0{bound} with commas between them")
     if len(set(numbers)) < 3 or len(set(numbers)) < len(numbers):
-        raise InputError([problem(variable, "", f"'{','.join(texts)}'", "at least three different numbers")])
+        raise wrong(variable, "", f"'{','.join(texts)}'", "at least three different numbers")
     return sorted(numbers, reverse=True)
 
 
@@ -56,23 +56,18 @@ def asked_outputs():
     repeated = [name for name in names if names.count(name) > 1]
     if repeated or not names:
         found = f"'{repeated[0]}' twice" if repeated else "nothing"
-        raise InputError([problem("OUTPUTS", "", found, "different names with commas between them")])
+        raise wrong("OUTPUTS", "", found, "different names with commas between them")
     return names
-
-
-def parts_of(scene):
-    """The parts geometry, mesh and time of a scene."""
-    return {name: part if isinstance(part := scene.get(name, {}), dict) else {} for name in ("geometry", "mesh", "time")}
 
 
 def refuse_fixed_meshes(path, scene):
     file = str(scene["geometry"].get("file", ""))
     if file.lower().endswith(".msh"):
-        raise InputError([problem(path, "geometry.file", f"'{file}', a mesh whose elements have their sizes",
-                                  "a shape, or a .geo or .step file, whose elements follow mesh.size")])
+        raise wrong(path, "geometry.file", f"'{file}', a mesh whose elements have their sizes",
+                    "a shape, or a .geo or .step file, whose elements follow mesh.size")
     if "error" in scene["mesh"]:
-        raise InputError([problem(path, "mesh.error", str(scene["mesh"]["error"]),
-                                  "a scene without this key: with it the sizes of elements do not follow mesh.size")])
+        raise wrong(path, "mesh.error", str(scene["mesh"]["error"]),
+                    "a scene without this key: with it the sizes of elements do not follow mesh.size")
 
 
 # --- Meshes ----------------------------------------------------------------------------------------------
@@ -82,12 +77,11 @@ def mesh(programs, scene, size):
     """What the mesher says of the mesh of a size, or of the scene's own mesh if `size` is None."""
     with tempfile.TemporaryDirectory() as scratch:
         change = [] if size is None else set_options([f"{SIZE}={size:.10g}"])
-        command = [programs / "suffuse-mesher", scene, *change, "-o", f"{scratch}/mesh.case.h5"]
-        ended = subprocess.run(command, capture_output=True, text=True)
-    if ended.returncode:
-        said = ended.stderr.strip() or f"suffuse-mesher ended with exit code {ended.returncode}"
-        raise InputError([said] if size is None else [f"The mesh of {SIZE} = {size:g} cannot be made.", *said.splitlines()])
-    return ended.stdout + ended.stderr
+        try:
+            made = consult(programs / "suffuse-mesher", scene, *change, "-o", f"{scratch}/mesh.case.h5")
+        except InputError as error:
+            raise InputError([f"The mesh of {SIZE} = {size:g} cannot be made."] * (size is not None) + [str(error)]) from None
+    return made.stdout + made.stderr
 
 
 def elements_of(said):
@@ -104,7 +98,7 @@ def sizes_of(path, scene, programs):
     own = scene["mesh"].get("size")
     if own is not None and not (isinstance(own, (int, float)) and own > 0):
         mesh(programs, path, None)
-        raise InputError([problem(path, SIZE, str(own), "a number above 0")])
+        raise wrong(path, SIZE, str(own), "a number above 0")
     if asked:
         return asked, float(own) if own in asked else asked[0]
     if own is not None:
@@ -112,8 +106,8 @@ def sizes_of(path, scene, programs):
     # The mesher then chooses a size that makes many elements, so it is the finest of the study.
     default = re.search(r"mesh\.size was not given: (\S+) m", mesh(programs, path, None))
     if not default:
-        raise InputError([problem(path, SIZE, "no such key, and a file with sizes of its own",
-                                  "mesh.size in the scene, or SIZES=A,B,C below the sizes of the file")])
+        raise wrong(path, SIZE, "no such key, and a file with sizes of its own",
+                    "mesh.size in the scene, or SIZES=A,B,C below the sizes of the file")
     finest = float(default[1])
     return [4.0 * finest, 2.0 * finest, finest], 4.0 * finest
 
@@ -144,12 +138,11 @@ def tolerances_of(path, scene):
     if "step" in time or time.get("scheme") == "explicit":
         if asked:
             found = "time.step" if "step" in time else 'time.scheme = "explicit"'
-            raise InputError([problem("TOLERANCES", "", f"numbers, and a scene with {found}",
-                                      "a scene whose steps follow time.tolerance")])
+            raise wrong("TOLERANCES", "", f"numbers, and a scene with {found}", "a scene whose steps follow time.tolerance")
         return [], None
     own = time.get("tolerance", DEFAULT_TOLERANCE)
     if not isinstance(own, float) or not 0.0 < own <= LARGEST_TOLERANCE:
-        raise InputError([problem(path, TOLERANCE, str(own), f"a number above 0 up to {LARGEST_TOLERANCE:g}")])
+        raise wrong(path, TOLERANCE, str(own), f"a number above 0 up to {LARGEST_TOLERANCE:g}")
     if asked:
         return asked, own if own in asked else asked[1]
     factors = (4.0, 1.0, 0.25) if 4.0 * own <= LARGEST_TOLERANCE else (1.0, 0.25, 0.0625)
@@ -184,7 +177,8 @@ def table_of(sizes, fixed_size, tolerances, fixed_tolerance, inertia):
 
 def prepare(path, folder, programs, first):
     asked_outputs()
-    scene = parts_of(read_scene(path))
+    content = read_scene(path)
+    scene = {name: table_in(content, name) for name in ("geometry", "mesh", "time")}
     refuse_fixed_meshes(path, scene)
     tolerances, fixed_tolerance = tolerances_of(path, scene)
     sizes, fixed_size = sizes_of(path, scene, programs)

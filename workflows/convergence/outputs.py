@@ -10,7 +10,7 @@
 import pathlib
 import sys
 
-from common import read_rows
+from common import last_rows
 
 # Columns of the table of runs, from this one on, are results at the end of the run.
 FIRST_RESULT = "eroded"
@@ -30,12 +30,6 @@ def words_of(name):
     return f"{WORDS[name]} ({name})" if name in WORDS else f"output {name}"
 
 
-def last_rows(path):
-    """The rows of the last time of a table."""
-    rows = read_rows(path)
-    return [row for row in rows if row["t"] == rows[-1]["t"]]
-
-
 def outputs_of(results, row):
     """All outputs of a run as texts by their names. `row`: that of sweep.csv."""
     columns = list(row)
@@ -47,16 +41,12 @@ def outputs_of(results, row):
     for name in columns[start:]:
         if row[name]:
             found.setdefault(name, row[name])
-    for table in ("history", "ledger"):
+    for table, number in (("history", ""), ("ledger", ""), ("probes", "probe"), ("sections", "section")):
         for last in last_rows(results / f"{table}.csv"):
+            start = f"{number}[{last[number]}]." if number else ""
             for name, value in last.items():
                 if name not in NO_OUTPUTS:
-                    found.setdefault(name, value)
-    for table, number in (("probes", "probe"), ("sections", "section")):
-        for last in last_rows(results / f"{table}.csv"):
-            for name, value in last.items():
-                if name not in NO_OUTPUTS:
-                    found[f"{number}[{last[number]}].{name}"] = value
+                    found.setdefault(start + name, value)
     return found
 
 

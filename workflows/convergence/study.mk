@@ -4,6 +4,4 @@
 #>                      report; SIZES=A,B,C and TOLERANCES=A,B,C instead of 2, 1, 1/2, 1/4 of mesh.size and 4, 1, 1/4 of
 #>                      time.tolerance                               -> workflows/out/convergence/ (docs/use/sweeps.md)
 
-.PHONY: convergence
-convergence:
-	@MAKE='$(MAKE)' $(PYTHON) convergence/convergence.py
+script_convergence := convergence/convergence.py

@@ -69,6 +69,13 @@ def is_close(matrix, residuals):
     return (lowered @ lowered) / keys < CLOSE**2 * rest / (count - keys)
 
 
+def moved(x, j, by):
+    """The point with another value of one key."""
+    point = numpy.array(x)
+    point[j] += by
+    return point
+
+
 @dataclasses.dataclass
 class Derivatives:
     matrix: numpy.ndarray
@@ -83,11 +90,7 @@ def derivatives(evaluate, low, high, x):
     one-sided at a bound, and where one of the two runs failed.
     """
     sides = [(j, sign) for j in range(len(x)) for sign in (1, -1) if low[j] <= x[j] + sign * STEP <= high[j]]
-    points = [numpy.array(x)]
-    for j, sign in sides:
-        points.append(numpy.array(x))
-        points[-1][j] += sign * STEP
-    base, *values = evaluate(points, "derivative")
+    base, *values = evaluate([numpy.array(x), *(moved(x, j, sign * STEP) for j, sign in sides)], "derivative")
     found = {side: value for side, value in zip(sides, values) if value is not None}
     columns = numpy.zeros((len(base), len(x)))
     failed, halves = [], [None] * len(x)
@@ -145,11 +148,7 @@ def mark_not_linear(evaluate, low, high, found, known, parts):
     half = known.quantile * known.error
     keys = [j for j, said in enumerate(known.said) if said == "known" and half[j] > STEP
             and low[j] <= found.x[j] - half[j] and found.x[j] + half[j] <= high[j]]
-    points = []
-    for j in keys:
-        for sign in (1, -1):
-            points.append(numpy.array(found.x))
-            points[-1][j] += sign * half[j]
+    points = [moved(found.x, j, sign * half[j]) for j in keys for sign in (1, -1)]
     values = evaluate(points, "interval") if points else []
     for j, above, below in zip(keys, values[::2], values[1::2]):
         if above is not None and below is not None:
@@ -168,11 +167,7 @@ def other_starts(logarithmic, low, high):
             moves = [low[j] + share * (high[j] - low[j]) for share in SHARES]
         else:
             moves = [-2.0, -0.5, 0.5, 2.0]
-        for move in moves:
-            if low[j] <= move <= high[j]:
-                start = numpy.zeros(len(logarithmic))
-                start[j] = move
-                starts.append(start)
+        starts += [moved(numpy.zeros(len(logarithmic)), j, move) for move in moves if low[j] <= move <= high[j]]
     return starts
 
 
@@ -197,25 +192,20 @@ def search(evaluate, logarithmic, low, high, of_constant):
         except Converged as end:
             return Search(*end.args, True, 1)
 
-    (residuals,) = evaluate([numpy.zeros(len(low))], "start")
-    best = None
-    if residuals is not None:
-        count = len(residuals)
-        best = minimise(numpy.zeros(len(low)))
-    if best is None or sum_of_squares(best.residuals) > max(POOR * of_constant, 1e-12):
+    start = numpy.zeros(len(low))
+    (residuals,) = evaluate([start], "start")
+    count = 0 if residuals is None else len(residuals)
+    best = minimise(start) if count else Search(start, None, False, 1)
+    if sum_of_squares(best.residuals) > max(POOR * of_constant, 1e-12):
         starts = other_starts(logarithmic, low, high)
-        trials = sorted(zip(map(sum_of_squares, evaluate(starts, "other start")), range(len(starts))))
-        if not trials or math.isinf(trials[0][0]):
-            if best is None:
-                raise NoRun
-            return best
-        if best is None or trials[0][0] < sum_of_squares(best.residuals):
-            (residuals,) = evaluate([starts[trials[0][1]]], "other start")
-            count = len(residuals)
-            other = minimise(starts[trials[0][1]])
-            if best is None or sum_of_squares(other.residuals) < sum_of_squares(best.residuals):
-                best = other
+        found = evaluate(starts, "other start")
+        least, place = min(zip(map(sum_of_squares, found), range(len(starts))), default=(math.inf, None))
+        if least < sum_of_squares(best.residuals):
+            count = len(found[place])
+            best = min(best, minimise(starts[place]), key=lambda end: sum_of_squares(end.residuals))
             best.starts = 2
+        elif best.residuals is None:
+            raise NoRun
     return best
 
 

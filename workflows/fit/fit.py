@@ -18,9 +18,10 @@ from scipy.special import chdtrc
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep"), str(workflows / "convergence")]
-from common import InputError, NotDone, cell, csv_text, draw_curves, end_with, file_name, find_file, folder_of, programs_of, run_json, write_changed
+from common import (InputError, NotDone, cell, csv_text, draw_curves, end_with, file_name, find_file, folder_of, is_number, programs_of,
+                    run_json, write_changed)
 from estimator import NEAR_BOUND, POOR, NoRun, derivatives, mark_not_linear, search, uncertainty
-from keys import is_number, read_keys
+from keys import read_keys
 from measured import check_outputs, computed, read_measured
 from outputs import unit_of
 from trials import Trials

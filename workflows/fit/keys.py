@@ -8,11 +8,10 @@ a rate may change by decades and stays positive; otherwise x = (value - start) /
 
 import math
 import re
-import subprocess
 
-from common import InputError, problem, read_scene
+from common import InputError, consult, is_number, number_of, problem, read_scene, set_options, wrong
 
-SYNTAX = "KEY or KEY:LOW:HIGH, with commas between several"
+SYNTAX = "KEY or KEY:LOW:HIGH with two numbers, LOW below HIGH, and commas between several"
 # A part of a path like soil."my sand".erosion.rate or boundary[0].head.
 PART = re.compile(r'"([^"]+)"|([^."\[\]]+)|\[(\d+)\]')
 # Values are written with this many digits, and the search takes them as they are written.
@@ -61,39 +60,26 @@ def value_in(scene, path):
     return None
 
 
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-
-
 def split_keys(text):
     """Triples of name and bounds as they are written."""
     entries = [entry.strip() for entry in text.split(",") if entry.strip()]
     if not entries:
-        raise InputError([problem("KEYS", "", "nothing", SYNTAX)])
+        raise wrong("KEYS", "", "nothing", SYNTAX)
     keys = []
     for entry in entries:
         name, *bounds = (part.strip() for part in entry.split(":"))
-        try:
-            low, high = (float(bound) for bound in bounds) if bounds else (-math.inf, math.inf)
-        except ValueError:
-            raise InputError([problem("KEYS", "", f"'{entry}'", SYNTAX)]) from None
-        if not name or not low < high or (bounds and not (math.isfinite(low) and math.isfinite(high))):
-            raise InputError([problem("KEYS", "", f"'{entry}'", f"{SYNTAX}, and two numbers, LOW below HIGH")])
+        ends = [number_of(bound) for bound in bounds] or [-math.inf, math.inf]
+        if not name or len(ends) != 2 or None in ends or not ends[0] < ends[1]:
+            raise wrong("KEYS", "", f"'{entry}'", SYNTAX)
         if name in (known for known, _, _ in keys):
-            raise InputError([problem("KEYS", "", f"'{name}' twice", "each key once")])
-        keys.append((name, low, high))
+            raise wrong("KEYS", "", f"'{name}' twice", "each key once")
+        keys.append((name, *ends))
     return keys
 
 
 def check_scene(programs, path, changes):
     """Throws InputError with what the mesher says of the scene with these changes. It makes no mesh."""
-    command = [programs / "suffuse-mesher", path, *(part for change in changes for part in ("--set", change)), "--check"]
-    try:
-        ended = subprocess.run(command, capture_output=True, text=True)
-    except OSError as error:
-        raise InputError([f"{command[0]}: cannot be run: {error.strerror}"]) from None
-    if ended.returncode:
-        raise InputError(ended.stderr.strip().splitlines() or [f"suffuse-mesher ended with exit code {ended.returncode}"])
+    consult(programs / "suffuse-mesher", path, *set_options(changes), "--check")
 
 
 def refuse_unknown(programs, path, name):
@@ -107,7 +93,7 @@ def refuse_unknown(programs, path, name):
 
 def units_of(scene, names, programs):
     """Units by the scene reference, which the mesher prints. That of a rate or a threshold goes with the drive."""
-    said = subprocess.run([programs / "suffuse-mesher", "--scene-reference"], capture_output=True, text=True).stdout
+    said = consult(programs / "suffuse-mesher", "--scene-reference").stdout
     units, section = {}, ""
     for line in said.splitlines():
         if line.startswith("### "):

@@ -13,7 +13,7 @@ import re
 
 import numpy
 
-from common import InputError, number_of, problem, read_rows
+from common import InputError, number_of, problem, read_rows, wrong
 from outputs import NO_OUTPUTS
 from runs import lines_of
 
@@ -51,8 +51,8 @@ class Measured:
             values = self.value[at]
             spread = float(numpy.std(values))
             if spread == 0.0 and len(self.outputs) > 1:
-                raise InputError([problem(self.path, name, f"the value {values[0]:g} alone, which has no spread to weigh it by",
-                                          f"a column {name}.{DEVIATION} of standard deviations")])
+                raise wrong(self.path, name, f"the value {values[0]:g} alone, which has no spread to weigh it by",
+                            f"a column {name}.{DEVIATION} of standard deviations")
             scale[at] = spread or float(numpy.max(numpy.abs(values))) or 1.0
         return scale
 
@@ -60,26 +60,26 @@ class Measured:
         late = [line for line, t in zip(self.lines, self.t) if t > end]
         if late:
             t = max(self.t)
-            raise InputError([problem(f"{self.path}:{late[0]}", "t", f"{t:.10g}", f"times up to {end:.10g} s, the end of the run")])
+            raise wrong(f"{self.path}:{late[0]}", "t", f"{t:.10g}", f"times up to {end:.10g} s, the end of the run")
 
 
 def columns_of(path, line, header, against):
     """Pairs of an output and its column, and the columns of deviations by outputs."""
     where = f"{path}:{line}"
     if len(header) == 1 and ";" in header[0]:
-        raise InputError([problem(where, "", f'"{header[0]}"', "commas between columns")])
+        raise wrong(where, "", f'"{header[0]}"', "commas between columns")
     for name in header:
         if header.count(name) > 1:
-            raise InputError([problem(where, "", f'"{name}" twice', "each column once")])
+            raise wrong(where, "", f'"{name}" twice', "each column once")
     if "t" not in header:
-        raise InputError([problem(where, "", ",".join(header), "a column t of times in s")])
+        raise wrong(where, "", ",".join(header), "a column t of times in s")
     named = [name for name in header if name not in ("t", "value") and not name.endswith(DEVIATION)]
     if "value" in header:
         if named:
-            raise InputError([problem(where, "", f'"value" and "{named[0]}"', "a column value, or columns named as outputs")])
+            raise wrong(where, "", f'"value" and "{named[0]}"', "a column value, or columns named as outputs")
         if len(against) != 1:
             found = ",".join(against) or "nothing"
-            raise InputError([problem("AGAINST", "", f"'{found}'", f"one output that the column value is of: {FORMS}")])
+            raise wrong("AGAINST", "", f"'{found}'", f"one output that the column value is of: {FORMS}")
         outputs = {against[0]: "value"}
     else:
         missing = [name for name in against if name not in named]
@@ -88,22 +88,22 @@ def columns_of(path, line, header, against):
         outputs = {name: name for name in against or named}
     for name in outputs:
         if not FORM.fullmatch(name):
-            raise InputError([problem("AGAINST" if name in against else where, "", f"'{name}'", f"an output: {FORMS}")])
+            raise wrong("AGAINST" if name in against else where, "", f"'{name}'", f"an output: {FORMS}")
     deviations = {name: f"{column}.{DEVIATION}" for name, column in outputs.items() if f"{column}.{DEVIATION}" in header}
     if DEVIATION in header:
         if len(outputs) > 1 or deviations:
-            raise InputError([problem(where, "", DEVIATION, f"OUTPUT.{DEVIATION} for each of several outputs")])
+            raise wrong(where, "", DEVIATION, f"OUTPUT.{DEVIATION} for each of several outputs")
         deviations = {name: DEVIATION for name in outputs}
     if deviations and len(deviations) < len(outputs):
         name = next(name for name in outputs if name not in deviations)
-        raise InputError([problem(where, "", f"no column {name}.{DEVIATION}", "deviations of all outputs or of none")])
+        raise wrong(where, "", f"no column {name}.{DEVIATION}", "deviations of all outputs or of none")
     return outputs, deviations
 
 
 def read_number(where, column, text, least, expected):
     value = number_of(text)
     if value is None or not value >= least:
-        raise InputError([problem(where, column, f'"{text}"', expected)])
+        raise wrong(where, column, f'"{text}"', expected)
     return value
 
 
@@ -116,7 +116,7 @@ def read_measured(path, against):
         try:
             where = f"{path}:{line}"
             if len(cells) != len(header):
-                raise InputError([problem(where, "", f"{len(cells)} cells", str(len(header)))])
+                raise wrong(where, "", f"{len(cells)} cells", str(len(header)))
             row = dict(zip(header, cells))
             t = read_number(where, "t", row["t"], 0.0, "a time of at least 0 s")
             for name, column in outputs.items():

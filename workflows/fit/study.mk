@@ -5,10 +5,5 @@
 #>   fit-study          twenty calibrations of known values with noise: how often their intervals hold the values; takes ten
 #>                      minutes                                              -> workflows/out/fit-study/
 
-.PHONY: fit fit-study
-fit:
-	@MAKE='$(MAKE)' $(PYTHON) fit/fit.py
-
-# Twenty calibrations of known values: do their intervals hold them as often as they say?
-fit-study:
-	@MAKE='$(MAKE)' $(PYTHON) fit/study.py $(OUT)/fit-study --programs $(BIN)
+script_fit       := fit/fit.py
+script_fit-study  = fit/study.py $(OUT)/fit-study --programs $(BIN)

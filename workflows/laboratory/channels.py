@@ -10,16 +10,18 @@ halve: the change from the last but one to the last, over the last, and the obse
 that no number stands for (differences of unlike signs, or none) is left empty.
 """
 
+import bisect
 import itertools
 import json
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 
+import numpy
+
 sys.path.insert(1, str(pathlib.Path(__file__).resolve().parent.parent))
-from common import cell, csv_text, read_rows
+from common import call, cell, csv_text, read_rows
 
 WIDTH, COUNT = 0.24, 2401  # of the specimen across the flow, m, and places across it
 OPEN = 0.375  # porosity where half of the fines are gone
@@ -33,8 +35,8 @@ def porosities(post, results, time, x):
     """Porosity along the line across the specimen at x."""
     with tempfile.TemporaryDirectory() as scratch:
         table = f"{scratch}/line.csv"
-        subprocess.run([post, "sample", results, "--time", f"{time:.17g}", "--line", f"{x},0:{x},{WIDTH}",
-                        "--count", str(COUNT), "--fields", "porosity", "--csv", table], check=True)
+        call(post, "sample", results, "--time", f"{time:.17g}", "--line", f"{x},0:{x},{WIDTH}", "--count", COUNT, "--fields", "porosity",
+             "--csv", table)
         return [float(row["porosity"]) for row in read_rows(table)]
 
 
@@ -47,28 +49,20 @@ def widths(post, results, time, x):
 def break_through(post, results):
     """The time at which the specimen opens near its inlet; none if it never does."""
     times = [file["time"] for file in json.loads((results / "mesh.hdf.series").read_text())["files"]]
-    before, after = 0, len(times) - 1
-    if not widths(post, results, times[after], NEAR_INLET):
+    is_open = lambda time: bool(widths(post, results, time, NEAR_INLET))
+    if not is_open(times[-1]):
         return None
-    while after - before > 1:
-        middle = (before + after) // 2
-        if widths(post, results, times[middle], NEAR_INLET):
-            after = middle
-        else:
-            before = middle
-    places = zip(porosities(post, results, times[before], NEAR_INLET),
-                 porosities(post, results, times[after], NEAR_INLET))
+    after = bisect.bisect_left(times, True, 1, len(times) - 1, key=is_open)
+    places = zip(*(porosities(post, results, time, NEAR_INLET) for time in times[after - 1 : after + 1]))
     share = min((OPEN - low) / (high - low) for low, high in places if high >= OPEN)
-    return times[before] + share * (times[after] - times[before])
+    return times[after - 1] + share * (times[after] - times[after - 1])
 
 
 def lost(ledger, time):
     """Share of the fines that is gone, per cent; none after the end."""
-    for before, after in itertools.pairwise(ledger):
-        if before["t"] <= time <= after["t"]:
-            share = (time - before["t"]) / (after["t"] - before["t"])
-            return 100.0 * (before["eroded"] + share * (after["eroded"] - before["eroded"])) / before["erodible_at_start"]
-    return None
+    if time > ledger[-1]["t"]:
+        return None
+    return 100.0 * numpy.interp(time, *([row[name] for row in ledger] for name in ("t", "eroded"))) / ledger[0]["erodible"]
 
 
 def setting(run, key, otherwise):
@@ -84,8 +78,6 @@ def shown(value, digits=4):
 def row_of(post, folder):
     results = pathlib.Path(folder)
     ledger = [{name: float(text) for name, text in row.items()} for row in read_rows(results / "ledger.csv")]
-    for row in ledger:
-        row["erodible_at_start"] = ledger[0]["erodible"]
     run = json.loads((results / "run.json").read_text())
     cells = [results.stem, f"{1e3 * float(setting(run, 'soil.specimen.erosion.length', '0')):g}",
              setting(run, "mesh.structure", "free"), f"{1e3 * float(setting(run, 'mesh.size', 'nan')):g}",

@@ -13,15 +13,16 @@ import math
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 
 import numpy
 from scipy.optimize import least_squares
 
-sys.path.insert(1, str(pathlib.Path(__file__).resolve().parent.parent))
-from common import InputError, NotDone, csv_text, end_with, number_of, problem, read_csv, read_rows, read_scene, set_options
+workflows = pathlib.Path(__file__).resolve().parent.parent
+sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
+from common import InputError, consult, csv_text, end_with, number_of, read_rows, read_scene, set_options, wrong
+from runs import lines_of
 
 UNIT_WEIGHT = 9810.0  # of water, N/m3
 RAISING = 60.0  # s that it takes to go from one gradient to the next
@@ -33,26 +34,23 @@ RAISING = 60.0  # s that it takes to go from one gradient to the next
 def read_table(path, bounds):
     """Rows as (line, run, values by column); `bounds` has the smallest and largest value of each column."""
     columns = ["run", *bounds]
-    try:
-        names, *rows = read_csv(path) or [[]]
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError([f"{path}: cannot be read: {error}"]) from error
+    (line, names), *rows = lines_of(path, ",".join(columns))
     if names != columns:
-        raise InputError([problem(f"{path}:1", "", f"the columns {','.join(names)}", ",".join(columns))])
-    if not any(rows):
-        raise InputError([problem(path, "", "no row", "at least one")])
-    return [read_row(f"{path}:{line}", cells, bounds) for line, cells in enumerate(rows, 2) if cells]
+        raise wrong(f"{path}:{line}", "", f"the columns {','.join(names)}", ",".join(columns))
+    if not rows:
+        raise wrong(path, "", "no row", "at least one")
+    return [read_row(f"{path}:{line}", cells, bounds) for line, cells in rows]
 
 
 def read_row(place, cells, bounds):
     if len(cells) != len(bounds) + 1:
-        raise InputError([problem(place, "", f"{len(cells)} cells", str(len(bounds) + 1))])
+        raise wrong(place, "", f"{len(cells)} cells", str(len(bounds) + 1))
     values = {column: number_of(text) for column, text in zip(bounds, cells[1:])}
     for (column, (low, high)), text in zip(bounds.items(), cells[1:]):
         if values[column] is None or not low <= values[column] <= high:
-            raise InputError([problem(place, column, f"'{text}'", f"a number from {low:g} to {high:g}")])
+            raise wrong(place, column, f"'{text}'", f"a number from {low:g} to {high:g}")
     if not cells[0] or not cells[0].replace("-", "").replace("_", "").isalnum():
-        raise InputError([problem(place, "run", f"'{cells[0]}'", "letters, digits, - or _")])
+        raise wrong(place, "run", f"'{cells[0]}'", "letters, digits, - or _")
     return place, cells[0], values
 
 
@@ -62,7 +60,7 @@ def read_runs(path, time, bounds):
     for place, name, values in read_table(path, {time: (0.0, math.inf), **bounds}):
         rows = runs.setdefault(name, [])
         if values[time] <= (rows[-1][time] if rows else 0.0):
-            raise InputError([problem(place, time, f"{values[time]:g}", "times above 0 that ascend within a run")])
+            raise wrong(place, time, f"{values[time]:g}", "times above 0 that ascend within a run")
         rows.append(values)
     return runs
 
@@ -76,9 +74,9 @@ def read_tests(options):
             raise InputError([f"{options.gradients}: got no row of '{name}', which {options.measured} has"])
         end = gradients[name][-1]["until_hours"]
         if points[-1]["hours"] > end:
-            raise InputError([problem(options.measured, name, f"a point at {points[-1]['hours']:g} h", f"none after {end:g} h, where its gradients end")])
+            raise wrong(options.measured, name, f"a point at {points[-1]['hours']:g} h", f"none after {end:g} h, where its gradients end")
     if options.fit not in measured:
-        raise InputError([problem("--fit", "", f"'{options.fit}'", f"one of {', '.join(measured)}")])
+        raise wrong("--fit", "", f"'{options.fit}'", f"one of {', '.join(measured)}")
     if len(measured[options.fit]) < 2:
         raise InputError([f"{options.measured}: got one point of '{options.fit}'; two parameters cannot be fitted to fewer than two points"])
     return measured, gradients
@@ -123,17 +121,6 @@ class Runner:
         self.changes = changes
         self.runs = 0
 
-    def call(self, program, *arguments):
-        try:
-            done = subprocess.run([self.programs / program, *arguments], capture_output=True, text=True,
-                                  env={**os.environ, "OMP_NUM_THREADS": "1"})
-        except OSError as error:
-            raise NotDone([f"{self.programs / program}: cannot be run: {error}"]) from error
-        if done.returncode == 2:
-            raise InputError([done.stderr.strip()])
-        if done.returncode != 0:
-            raise NotDone([f"{program} failed with exit code {done.returncode}:", done.stderr.strip()])
-
     def run(self, name, stages, end, rate, residual, folder):
         """Computes a test up to `end`, h; returns its results folder."""
         erosion = f"soil.{self.specimen.soil}.erosion"
@@ -141,8 +128,8 @@ class Runner:
                    f"boundary[0].pressure={pressures(stages, self.specimen.height)}", f"time.end={3600.0 * end:.17g}"]
         case, results = folder / f"{name}.case.h5", folder / f"{name}.results"
         shutil.rmtree(results, ignore_errors=True)
-        self.call("suffuse-mesher", self.specimen.path, *set_options(changes), "-o", case)
-        self.call("suffuse-solver", case, "-o", results)
+        consult(self.programs / "suffuse-mesher", self.specimen.path, *set_options(changes), "-o", case)
+        consult(self.programs / "suffuse-solver", case, "-o", results, env=os.environ | {"OMP_NUM_THREADS": "1"})
         self.runs += 1
         return results
 

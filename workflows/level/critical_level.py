@@ -12,8 +12,8 @@ for wrong input; 1 if runs have no answer.
 import dataclasses
 import math
 
-from levels import (InputError, call, csv_text, named_failures, number_in, outcomes, problem, report, rounded,
-                    rows_of_sweep, said_beside, slopes_of, stems_of, write_changed, write_table)
+from levels import (InputError, call, csv_text, named_failures, number_in, outcomes, report, rounded, rows_of_sweep,
+                    said_beside, slopes_of, stems_of, write_changed, write_table, wrong)
 from assessment import SLOPE, in_order, is_assessed, messages_of, spoken
 from common import cell, read_rows
 from svg import CURVES, Panel, document
@@ -39,13 +39,13 @@ class Search:
 def asked():
     low, high = number_in("FROM"), number_in("TO")
     if not low < high:
-        raise InputError([problem("FROM", "", f"{low:g}, and TO={high:g}", "a level below TO")])
+        raise wrong("FROM", "", f"{low:g}, and TO={high:g}", "a level below TO")
     scan = number_in("SCAN", SCAN)
     if scan != int(scan) or not 2 <= scan <= 1000:
-        raise InputError([problem("SCAN", "", f"{scan:g}", "a whole number of levels from 2 to 1000")])
+        raise wrong("SCAN", "", f"{scan:g}", "a whole number of levels from 2 to 1000")
     tolerance = number_in("TOLERANCE_LEVEL", TOLERANCE * (high - low))
     if not 1e-6 * (high - low) <= tolerance <= high - low:
-        raise InputError([problem("TOLERANCE_LEVEL", "", f"{tolerance:g}", f"a length from {1e-6 * (high - low):g} to {high - low:g} m")])
+        raise wrong("TOLERANCE_LEVEL", "", f"{tolerance:g}", f"a length from {1e-6 * (high - low):g} to {high - low:g} m")
     scan = int(scan)
     return [rounded(low + (high - low) * k / (scan - 1)) for k in range(scan)], tolerance
 

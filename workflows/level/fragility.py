@@ -1,18 +1,18 @@
 #!/usr/bin/python3
 """How probable is failure at a level? `make -C workflows fragility` calls this.
 
-Writes table.csv, the sweep's table: every draw at every level, fragility.csv, draws.csv, report.md and fragility.svg. LEVELS, SWEEP, BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1
-if runs have no answer.
+Writes table.csv, the sweep's table: every draw at every level, fragility.csv, draws.csv, report.md and fragility.svg. LEVELS, SWEEP,
+BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
 """
 
 import os
 
 from scipy.stats import beta
 
-from levels import (InputError, call, csv_text, named_failures, outcomes, problem, report, rounded, rows_of_sweep, said_beside,
-                    write_changed, write_table)
+from levels import (InputError, call, csv_text, named_failures, outcomes, report, rounded, rows_of_sweep, said_beside,
+                    write_changed, write_table, wrong)
 from assessment import EROSION, SLOPE, Outcome, in_order, spoken
-from common import cell
+from common import cell, number_of
 from runs import MOST_RUNS, read_runs
 from svg import CURVES, Panel, document
 
@@ -40,13 +40,10 @@ def bounds(failures, runs):
 
 def asked_levels():
     text = os.environ.get("LEVELS", "").strip()
-    try:
-        levels = [rounded(float(part)) for part in text.split(",")]
-        finite = all(abs(level) < float("inf") for level in levels)
-    except ValueError:
-        finite = False
-    if not finite or levels != sorted(set(levels)):
-        raise InputError([problem("LEVELS", "", f"'{text}'" if text else "nothing", "rising numbers with commas between them, m")])
+    numbers = [number_of(part) for part in text.split(",")]
+    levels = [rounded(number) for number in numbers if number is not None]
+    if len(levels) < len(numbers) or levels != sorted(set(levels)):
+        raise wrong("LEVELS", "", f"'{text}'" if text else "nothing", "rising numbers with commas between them, m")
     return levels
 
 
@@ -56,7 +53,7 @@ def draws_of(study):
     keys, draws = read_runs(path)
     taken = [key for key in keys if key == study.key or key in study.changes() or study.key.startswith(f"{key}.")]
     if taken:
-        raise InputError([problem(path, taken[0], "a key that this study sets", "other keys: the level is that of LEVELS, others are in SET")])
+        raise wrong(path, taken[0], "a key that this study sets", "other keys: the level is that of LEVELS, others are in SET")
     return keys, draws
 
 
@@ -67,7 +64,7 @@ def rows_of(study):
     study.check_levels("LEVELS", levels)
     keys, draws = draws_of(study)
     if len(draws) * len(levels) > MOST_RUNS:
-        raise InputError([problem("LEVELS", "", f"{len(levels)} levels of {len(draws)} draws", f"at most {MOST_RUNS} runs")])
+        raise wrong("LEVELS", "", f"{len(levels)} levels of {len(draws)} draws", f"at most {MOST_RUNS} runs")
     changes = study.changes()
     table = [[study.key, *changes, *keys]]
     table += [[study.cell(level), *changes.values(), *draw] for draw in draws for level in levels]

@@ -5,6 +5,7 @@ A constant head is replaced by the level. A head that changes in time is stretch
 value is the level: h(t) becomes h(0) + (h(t) - h(0)) (level - h(0)) / (max h - h(0)).
 """
 
+import json
 import os
 import pathlib
 import re
@@ -15,8 +16,8 @@ workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
 from assessment import (SLOPE, STATES, WITHOUT_STRENGTH, is_assessed, outcomes_of, reduction_options, said_of_options, said_of_others, table_in,
                         with_absent)
-from common import (InputError, csv_text, end_with, find_file, folder_of, number_of, problem, read_csv, read_rows, read_scene,
-                    write_changed)
+from common import (InputError, csv_text, end_with, find_file, folder_of, is_number, number_of, read, read_csv, read_rows, read_scene,
+                    write_changed, wrong)
 from sweep import make, read_status, refuse_foreign
 
 # Laws of soil that fails, with the keys of elastic soil.
@@ -34,7 +35,7 @@ def number_in(variable, default=None):
         return default
     value = number_of(text)
     if value is None:
-        raise InputError([problem(variable, "", f"'{text}'" if text else "nothing", "a number")])
+        raise wrong(variable, "", f"'{text}'" if text else "nothing", "a number")
     return value
 
 
@@ -54,23 +55,13 @@ def changes_in(variable):
     changes = [change for change in changes if change]
     for change in changes:
         if "=" not in change:
-            raise InputError([problem(variable, "", f"'{change}'", "KEY=VALUE, with spaces between several")])
+            raise wrong(variable, "", f"'{change}'", "KEY=VALUE, with spaces between several")
     return dict(change.split("=", 1) for change in changes)
 
 
 def toml(value):
-    """A value of a scene as a text of one line."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
-    if isinstance(value, list):
-        return "[" + ", ".join(map(toml, value)) + "]"
-    return repr(value)
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    """A value of a scene as a text of one line. Tables apart, what JSON writes is TOML, except inf."""
+    return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False, default=str)
 
 
 def pairs_of_file(path):
@@ -92,14 +83,14 @@ class Study:
         self._find_boundary()
         steady = os.environ.get("STEADY", "").strip()
         if steady not in ("", "0", "1"):
-            raise InputError([problem("STEADY", "", f"'{steady}'", "1, or nothing")])
+            raise wrong("STEADY", "", f"'{steady}'", "1, or nothing")
         self.is_steady = self.history is None or steady == "1"
         if self.is_steady:
             self.history = None
         self.states = os.environ.get("FACTOR", "").strip() or ("start" if self.is_steady else "all")
         self.states = {"0": "checks", "1": "last"}.get(self.states, self.states)
         if self.states not in STATES:
-            raise InputError([problem("FACTOR", "", f"'{self.states}'", "start, last, all, or checks")])
+            raise wrong("FACTOR", "", f"'{self.states}'", "start, last, all, or checks")
 
     def _find_boundary(self):
         name = os.environ.get("BOUNDARY", "").strip()
@@ -110,13 +101,13 @@ class Study:
         place = next((place for place, entry in enumerate(entries) if entry.get("on") == name), None)
         if place is None:
             found = f'"{name}", which is no boundary of {self.path}' if name else "nothing"
-            raise InputError([problem("BOUNDARY", "", found, f"a boundary with a head: {known}")])
+            raise wrong("BOUNDARY", "", found, f"a boundary with a head: {known}")
         self.entry, self.key = entries[place], f"boundary[{place}].head"
         if name not in with_head:
-            raise InputError([problem("BOUNDARY", "", f'"{name}", which has no head', f"a boundary with a head: {known}")])
+            raise wrong("BOUNDARY", "", f'"{name}", which has no head', f"a boundary with a head: {known}")
         taken = [key for key in self.own if key == f"boundary[{place}]" or key.startswith(f"boundary[{place}].head")]
         if taken:
-            raise InputError([problem("SET", taken[0], "the head that this study varies", "other keys")])
+            raise wrong("SET", taken[0], "the head that this study varies", "other keys")
         head = self.entry.get("head")
         if "file" in self.entry:
             head = pairs_of_file(self.path.parent / str(self.entry["file"]))
@@ -126,7 +117,7 @@ class Study:
             return
         if not (isinstance(head, list) and head and all(isinstance(pair, list) and len(pair) == 2 and
                                                          all(map(is_number, pair)) for pair in head)):
-            raise InputError([problem(self.path, f"boundary[{place}].head", toml(head), "a number, or pairs [[t, head], ...]")])
+            raise wrong(self.path, f"boundary[{place}].head", toml(head), "a number, or pairs [[t, head], ...]")
 
     def check_levels(self, variable, levels):
         """Throws InputError where the hydrograph cannot be stretched to a level."""
@@ -134,10 +125,10 @@ class Study:
             return
         first, highest = self.history[0][1], max(head for _, head in self.history)
         if not highest > first:
-            raise InputError([problem("BOUNDARY", "", f"a table of heads that never rises above its first, {first:g} m",
-                                      "one that rises, or STEADY=1")])
+            raise wrong("BOUNDARY", "", f"a table of heads that never rises above its first, {first:g} m",
+                        "one that rises, or STEADY=1")
         if min(levels) < first:
-            raise InputError([problem(variable, "", f"{min(levels):g}", f"a level above {first:g} m, the first head of the table")])
+            raise wrong(variable, "", f"{min(levels):g}", f"a level above {first:g} m, the first head of the table")
 
     def cell(self, level):
         """The value of the boundary's key at a level."""
@@ -271,7 +262,7 @@ def warnings_of(stem):
     found = {}
     for suffix in ("log", "assessed"):
         path = stem.with_name(f"{stem.name}.{suffix}")
-        lines = path.read_text(encoding="utf-8", errors="replace").splitlines() if path.is_file() else []
+        lines = read(path).splitlines() if path.is_file() else []
         for text in (line.partition("warning: ")[2] for line in lines if re.match(r"([\w-]+: )?warning: ", line)):
             found[re.sub(r"^--set ([^=\s]+)=.*: (?=\1)", "", text)] = None
     return list(found)

@@ -8,6 +8,5 @@
 #>                      mechanism, with bounds: the draws of a sampled table at all levels
 #>                                                       -> workflows/out/fragility/ (docs/use/assessment.md)
 
-.PHONY: critical-level fragility
-critical-level fragility:
-	@MAKE='$(MAKE)' $(PYTHON) level/$(subst -,_,$@).py
+script_critical-level := level/critical_level.py
+script_fragility      := level/fragility.py

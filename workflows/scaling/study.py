@@ -14,12 +14,11 @@ import math
 import os
 import pathlib
 import shutil
-import statistics
 import sys
 
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(here.parent))
-from common import call, markdown, median, pass_seconds, read_rows, run_json, set_options, timed
+from common import call, markdown, median, pass_seconds, power, read_rows, run_json, set_options, timed
 
 SMALL = 4.0
 STAGES = ("mesher", "ledger", "picture", "solver")
@@ -80,10 +79,8 @@ def points_of(row):
 
 def exponent(rows, cost):
     """The exponent b of cost = a points^b, by least squares, from 1e4 points on."""
-    used = [row for row in rows if points_of(row) >= 0.9e4 and row[cost] > 0]
-    if len(used) < 2:
-        return "-"
-    return f"{statistics.linear_regression([math.log(points_of(row)) for row in used], [math.log(row[cost] / row['steps']) for row in used]).slope:.2f}"
+    found = power([(points_of(row), row[cost] / row["steps"]) for row in rows if points_of(row) >= 0.9e4 and row[cost] > 0])
+    return "-" if found is None else f"{found:.2f}"
 
 
 def report(*files):

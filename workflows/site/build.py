@@ -5,6 +5,7 @@ All pages that README.md and docs/README.md lead to, and all files that these pa
 places, so that links hold. The navigation has the order in which docs/README.md names the pages. Warnings of MkDocs,
 such as a link that leads nowhere, are errors.
 """
+import json
 import os
 import re
 import shutil
@@ -51,8 +52,7 @@ def title(page):
 
 def navigation(pages):
     """Lines of YAML."""
-    quoted = lambda text: '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
-    entry = lambda page: f"      - {quoted(title(page))}: {page}"
+    entry = lambda page: f"      - {json.dumps(title(page), ensure_ascii=False)}: {page}"
     yield "nav:"
     yield "  - Suffuse: README.md"
     yield f"  - Index: {INDEX}"
@@ -82,9 +82,9 @@ def main():
                                  f"site_dir: {out / 'site'}", *navigation(sorted(found))]) + "\n")
     done = subprocess.run(["mkdocs", "build", "--strict", "--config-file", str(config)], check=False, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
+    if done.returncode:
         print("\n".join(line for line in done.stdout.splitlines() if re.search("WARNING|ERROR|Abort", line)))
-    if done.returncode == 0:
+    else:
         print(f"The site is {out / 'site'}; to search in it: python3 -m http.server --directory {out / 'site'}")
     return done.returncode
 

@@ -22,7 +22,7 @@ import time
 
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(here.parent))
-from common import call, csv_text, markdown, set_options
+from common import call, csv_text, empty_folder, markdown, set_options, timed
 
 # A column that a load squeezes by half an element while its fines erode.
 MOVING = ["time={end=4.0,tolerance=2e-3}", 'soil.specimen.skeleton={law="elastic",young=3e5,poisson=0.2}',
@@ -77,13 +77,10 @@ def disturb(programs, folder, mode, wanted, generator):
     """The row of kill.csv."""
     formulation, scheme, changes = MODES[mode]
     solver, case, whole = programs / "suffuse-solver", folder / "kill.case.h5", folder / "whole"
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
+    empty_folder(folder)
     scene = here / ("kill-bank.toml" if mode == "sp-failing" else "kill.toml")
     call(programs / "suffuse-mesher", scene, *set_options(changes), "-o", case)
-    begin = time.monotonic()
-    call(solver, case, "-o", whole, "--quiet", cwd=folder)
-    duration = time.monotonic() - begin
+    duration, _ = timed(solver, case, "-o", whole, "--quiet", cwd=folder)
     kills = unreadable = runs = resumed = equal = 0
     while kills < wanted:
         runs += 1

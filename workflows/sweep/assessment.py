@@ -9,7 +9,7 @@ import math
 import os
 import re
 
-from common import InputError, cell, number_of, problem, read_rows
+from common import cell, number_of, read, read_rows, wrong
 
 # Mechanisms that depend on the water level, in the order of tables and charts. Other checks, such as those of filters,
 # follow by their names.
@@ -47,7 +47,7 @@ def in_order(mechanisms):
 
 def messages_of(stem):
     """What run.py could not find, and why: `check` or `factor` -> message. `warning` is no reason."""
-    lines = stem.with_name(stem.name + ".assessed").read_text(encoding="utf-8", errors="replace").splitlines()
+    lines = read(stem.with_name(stem.name + ".assessed")).splitlines()
     found = {}
     for what, _, message in (line.partition(": ") for line in lines):
         message = re.sub(r"^suffuse-\w+: (error: )?", "", message)
@@ -200,7 +200,7 @@ def reduction_options(scene, keys, states):
     for variable, text in (("REGION", " ".join(names)), ("DEEPER", depth)):
         if text and states in ("", "checks"):
             wanted = "FACTOR=1, all or start" if not states else "FACTOR=start, last or all"
-            raise InputError([problem(variable, "", f"'{text}' {'with FACTOR=checks' if states else 'without FACTOR'}", f"{wanted} beside it")])
+            raise wrong(variable, "", f"'{text}' {'with FACTOR=checks' if states else 'without FACTOR'}", f"{wanted} beside it")
     soils = table_in(scene, "soil")
     changed = {key.split(".")[1] for key in keys if key.startswith("soil.") and key.count(".")}
     strong = [name for name in sorted({*soils, *changed}) if NAME.fullmatch(name) and may_have_strength(soils, name, keys)]
@@ -208,17 +208,14 @@ def reduction_options(scene, keys, states):
     for name in names:
         if name not in strong:
             known = " or ".join(strong) or "a scene with such a soil; this one has none"
-            raise InputError([problem("REGION", "", f"'{name}'", f"soils with a strength, with spaces between several: {known}", strong)])
+            raise wrong("REGION", "", f"'{name}'", f"soils with a strength, with spaces between several: {known}", strong)
         options += ["--region", name]
     if depth:
-        try:
-            value = float(depth)
-        except ValueError:
-            value = math.nan
-        if not 0.0 < value < math.inf:
-            raise InputError([problem("DEEPER", "", f"'{depth}'", "a depth above 0, m")])
+        value = number_of(depth)
+        if value is None or value <= 0.0:
+            raise wrong("DEEPER", "", f"'{depth}'", "a depth above 0, m")
         if "gravity" not in keys and not any(scene.get("gravity", [0.0])):
-            raise InputError([problem("DEEPER", "", f"'{depth}'", "a scene with gravity; this one has none")])
+            raise wrong("DEEPER", "", f"'{depth}'", "a scene with gravity; this one has none")
         options += ["--deeper", f"{value:.10g}"]
     return options
 

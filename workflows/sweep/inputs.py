@@ -18,7 +18,7 @@ import sys
 import tomllib
 
 sys.path.insert(1, str(pathlib.Path(__file__).resolve().parent.parent))
-from common import InputError, write_changed
+from common import InputError, read, write_changed
 
 PROGRAMS = ["suffuse-mesher", "suffuse-solver"]
 QUOTED = re.compile(r'"([^"\n]+)"|\'([^\'\n]+)\'')
@@ -44,7 +44,7 @@ def named_files(text, folder):
 
 @functools.lru_cache(maxsize=None)
 def common_lines(scene, programs):
-    text = scene.read_text(encoding="utf-8", errors="replace")
+    text = read(scene)
     files = [scene, *named_files(text, scene.parent), *(programs / name for name in PROGRAMS)]
     return [content(file) for file in files]
 
@@ -59,7 +59,7 @@ def mesh_keys(text):
 
 def adaptation(scene, changes):
     """The line that says whether the scene, with its changes, is meshed again: one or none."""
-    given = mesh_keys(scene.read_text(encoding="utf-8", errors="replace")).union(*map(mesh_keys, changes))
+    given = mesh_keys(read(scene)).union(*map(mesh_keys, changes))
     if "error" in given:
         return ["adapt"]
     return [] if "size" in given else ["adapt by default"]

@@ -30,41 +30,25 @@ import sys
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(1, str(workflows))
 from assessment import is_assessed
+from common import read, set_options, write
 
 programs, stem, tolerance, *safety = sys.argv[1:]
-programs, name, alone = os.path.abspath(programs), os.path.basename(stem), bool(os.environ.get("PROGRESS"))
-os.chdir(os.path.dirname(stem) or ".")
-inputs, status, case, results, ledger, assessed = (f"{name}.{end}" for end in ("inputs", "status", "case.h5", "results", "ledger.csv", "assessed"))
-started, messages = f".{name}.started", f".{name}.messages"  # the inputs of the case, and what the last program said
-
-
-def read(path):
-    with open(path, encoding="utf-8", errors="replace") as file:
-        return file.read()
-
-
-def write(path, text):
-    with open(f"{path}.new", "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(f"{path}.new", path)
-
-
-def remove(*paths):
-    for path in filter(os.path.exists, paths):
-        os.unlink(path)
-
-
-def is_newer(path, other):
-    return os.path.exists(path) and (not os.path.exists(other) or os.stat(path).st_mtime_ns > os.stat(other).st_mtime_ns)
+programs, stem, alone = pathlib.Path(programs).absolute(), pathlib.Path(stem), bool(os.environ.get("PROGRESS"))
+os.chdir(stem.parent)
+name = stem.name
+inputs, status, case, results, ledger, check, factors, assessed = (pathlib.Path(f"{name}.{end}") for end in (
+    "inputs", "status", "case.h5", "results", "ledger.csv", "check.csv", "factors.csv", "assessed"))
+# The inputs of the case, and what the last program said.
+started, messages = pathlib.Path(f".{name}.started"), pathlib.Path(f".{name}.messages")
 
 
 def call(program, *arguments, **streams):
     """Runs a program, which inherits the lock. Its exit code, after which this script goes on, and what it said where that is caught."""
-    ended = subprocess.run([os.path.join(programs, program), *arguments], close_fds=False, **streams)
+    ended = subprocess.run([programs / program, *arguments], close_fds=False, **streams)
     code = ended.returncode if ended.returncode >= 0 else 128 - ended.returncode
     if code not in (0, 2, 3):
-        said = f"stopped with exit code {code} of {os.path.basename(program)}"
-        with open(messages, "a", encoding="utf-8") as file:
+        said = f"stopped with exit code {code} of {pathlib.Path(program).name}"
+        with messages.open("a", encoding="utf-8") as file:
             print(said, file=file)
         print(name, said)
         sys.exit(code)
@@ -74,18 +58,17 @@ def call(program, *arguments, **streams):
 def steps():
     """Program, the word for its exit code 3, arguments."""
     text = read(inputs)
-    if not (os.path.exists(case) and os.path.exists(started) and read(started) == text):
+    if not (case.exists() and started.exists() and read(started) == text):
         lines = [line.partition(" ") for line in text.splitlines()]
         (scene,), changes = ([rest for word, _, rest in lines if word == wanted] for wanted in ("scene", "set"))
-        options = [part for change in changes for part in ("--set", change)]
-        remove(started)  # until the case is whole, an earlier one fits no inputs
+        started.unlink(missing_ok=True)  # until the case is whole, an earlier one fits no inputs
         again = [rest for word, _, rest in lines if word == "adapt"]
         if again:
-            yield workflows / "adapt.py", "failed", *["--by-default"] * bool(again[0]), programs, scene, name, *options
+            yield workflows / "adapt.py", "failed", *["--by-default"] * bool(again[0]), programs, scene, name, *set_options(changes)
         else:
-            yield "suffuse-mesher", "refused", scene, *options, "-o", case
+            yield "suffuse-mesher", "refused", scene, *set_options(changes), "-o", case
         shutil.rmtree(results, ignore_errors=True)
-        remove(ledger)
+        ledger.unlink(missing_ok=True)
         write(started, text)
     if safety[:1] == ["case"]:
         return
@@ -99,7 +82,7 @@ def run(log):
         if alone:
             code, _ = call(program, *arguments)
         else:
-            with open(messages, "w", encoding="utf-8") as said:
+            with messages.open("w", encoding="utf-8") as said:
                 code, _ = call(program, *arguments, stdout=log, stderr=said)
             log.write(read(messages))
             log.flush()
@@ -112,7 +95,7 @@ def make():
     write(messages, "")
     word = run(None if alone else open(f"{name}.log", "w", encoding="utf-8"))
     if alone and word != "done":
-        remove(status)
+        status.unlink(missing_ok=True)
         sys.exit(2 if word == "refused" else 3)
     write(status, f"{word}\n{read(messages)}")
     print(name, word)
@@ -120,12 +103,13 @@ def make():
 
 def assess(states, *options):
     # A table of an earlier state must not stay where the new state has none.
-    remove(f"{name}.check.csv", f"{name}.factors.csv", assessed)
-    has_state, found = os.path.exists(f"{results}/run.json"), ""  # a run that failed at its start has no state
-    asked = [("check", "suffuse-post", "check", results, "--csv", f"{name}.check.csv")] if has_state else []
+    for earlier in (check, factors, assessed):
+        earlier.unlink(missing_ok=True)
+    has_state, found = (results / "run.json").exists(), ""  # a run that failed at its start has no state
+    asked = [("check", "suffuse-post", "check", results, "--csv", check)] if has_state else []
     if states != "checks" and not read(status).startswith("refused") and (has_state or states in ("start", "case")):
         state = {"last": ["--state", results], "all": ["--state", results, "--time", "all"]}.get(states, [])
-        asked.append(("factor", "suffuse-solver", case, "--strength-reduction", *state, *options, "--quiet", "-o", f"{name}.factors.csv"))
+        asked.append(("factor", "suffuse-solver", case, "--strength-reduction", *state, *options, "--quiet", "-o", factors))
     for what, program, *arguments in asked:  # the first error of each program, and its warnings
         code, said = call(program, *arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         warnings = [line for line in said.splitlines() if ": warning: " in line]
@@ -141,7 +125,7 @@ os.set_inheritable(lock, True)
 fcntl.flock(lock, fcntl.LOCK_EX)
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # the solver still writes its checkpoint
     signal.signal(number, lambda *_: None)
-if not is_newer(status, inputs):
+if not status.exists() or status.stat().st_mtime_ns <= inputs.stat().st_mtime_ns:
     make()
 if safety and not is_assessed(pathlib.Path(".."), name):
     assess(*safety)

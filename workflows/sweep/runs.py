@@ -15,7 +15,7 @@ are left out.
 import csv
 import re
 
-from common import InputError, problem
+from common import InputError, number_of, problem, wrong
 from sampling import PARAMETERS, Distribution
 
 MOST_RUNS = 9999
@@ -37,7 +37,7 @@ def lines_of(path, expected="a line of keys and a line for each run"):
         raise InputError([f"{path}: is no table: {error}"]) from None
     rows = [(line, row) for line, row in rows if any(row) and not row[0].startswith("#")]
     if not rows:
-        raise InputError([problem(path, "", "no line", expected)])
+        raise wrong(path, "", "no line", expected)
     return rows
 
 
@@ -57,7 +57,7 @@ def check_keys(path, rows):
 def listed_runs(path, rows):
     line, keys = rows[0]
     if len(keys) == 1 and ";" in keys[0]:
-        raise InputError([problem(f"{path}:{line}", "", f'"{keys[0]}"', "commas between columns")])
+        raise wrong(f"{path}:{line}", "", f'"{keys[0]}"', "commas between columns")
     problems = check_keys(path, [(line, key) for key in keys])
     if len(rows) == 1:
         problems.append(problem(path, "", "no run", "a row for each run"))
@@ -72,48 +72,43 @@ def listed_runs(path, rows):
     return keys, [cells for line, cells in rows[1:]]
 
 
+def setting(name, rows):
+    """Number and text of the line `name,TEXT`."""
+    return next(((line, ",".join(cells[1:]).rstrip(",")) for line, cells in rows if cells[0] == name), (0, ""))
+
+
 def read_setting(path, name, least, rows):
     """The whole number of the line `name,NUMBER`."""
-    for line, cells in rows:
-        if cells[0] != name:
-            continue
-        found = ",".join(cells[1:]).rstrip(",")
-        if re.fullmatch(r"\d+", found) and int(found) >= least:
-            return int(found)
-        raise InputError([problem(f"{path}:{line}", name, f'"{found}"', f"a whole number, at least {least}")])
-    raise InputError([problem(path, name, "no such line", f'"{name},NUMBER" above the line of columns')])
+    line, found = setting(name, rows)
+    if not line:
+        raise wrong(path, name, "no such line", f'"{name},NUMBER" above the line of columns')
+    if not re.fullmatch(r"\d+", found) or int(found) < least:
+        raise wrong(f"{path}:{line}", name, f'"{found}"', f"a whole number, at least {least}")
+    return int(found)
 
 
 def read_sampling(path, rows):
-    for line, cells in rows:
-        if cells[0] == "sampling":
-            found = ",".join(cells[1:]).rstrip(",")
-            if found in SAMPLINGS:
-                return found
-            raise InputError([problem(f"{path}:{line}", "sampling", f'"{found}"',
-                                      '"independent" or "latin-hypercube"', SAMPLINGS)])
-    return SAMPLINGS[0]
+    line, found = setting("sampling", rows)
+    if line and found not in SAMPLINGS:
+        raise wrong(f"{path}:{line}", "sampling", f'"{found}"', '"independent" or "latin-hypercube"', SAMPLINGS)
+    return found or SAMPLINGS[0]
 
 
 def read_distribution(path, line, cells):
     key, name = cells[0], cells[1]
     if name not in PARAMETERS:
-        raise InputError([problem(f"{path}:{line}", f"{key}: distribution", f'"{name}"',
-                                  '"normal", "lognormal" or "uniform"', PARAMETERS)])
+        raise wrong(f"{path}:{line}", f"{key}: distribution", f'"{name}"', '"normal", "lognormal" or "uniform"', PARAMETERS)
     parameters = {}
     for parameter, cell in zip(SAMPLED[2:], cells[2:]):
         if not cell:
             continue
-        try:
-            parameters[parameter] = float(cell)
-        except ValueError:
-            parameters[parameter] = float("nan")
-        if not abs(parameters[parameter]) < float("inf"):
-            raise InputError([problem(f"{path}:{line}", f"{key}: {parameter}", f'"{cell}"', "a number")])
+        parameters[parameter] = number_of(cell)
+        if parameters[parameter] is None:
+            raise wrong(f"{path}:{line}", f"{key}: {parameter}", f'"{cell}"', "a number")
     try:
         return Distribution(name, parameters)
     except ValueError as error:
-        raise InputError([problem(f"{path}:{line}", key, ",".join(cells[2:]), str(error))]) from None
+        raise wrong(f"{path}:{line}", key, ",".join(cells[2:]), str(error)) from None
 
 
 def sampled_runs(path, rows, start):
@@ -129,7 +124,7 @@ def sampled_runs(path, rows, start):
     for line, cells in rows[start + 1 :]:
         try:
             if len(cells) > len(SAMPLED) or len(cells) < 2:
-                raise InputError([problem(f"{path}:{line}", "", f"{len(cells)} cells", ",".join(SAMPLED))])
+                raise wrong(f"{path}:{line}", "", f"{len(cells)} cells", ",".join(SAMPLED))
             columns.append((cells[0], read_distribution(path, line, cells)))
         except InputError as error:
             problems.append(str(error))
@@ -146,10 +141,10 @@ def read_runs(path):
     rows = lines_of(path)
     start = next((i for i, (_, cells) in enumerate(rows) if cells[0] == "key"), None)
     if start is None and {cells[0] for _, cells in rows} & set(SETTINGS):
-        raise InputError([problem(path, "", "no line of columns", ",".join(SAMPLED))])
+        raise wrong(path, "", "no line of columns", ",".join(SAMPLED))
     if start is not None and rows[start][1] != SAMPLED:
-        raise InputError([problem(f"{path}:{rows[start][0]}", "", ",".join(rows[start][1]), ",".join(SAMPLED))])
+        raise wrong(f"{path}:{rows[start][0]}", "", ",".join(rows[start][1]), ",".join(SAMPLED))
     keys, runs = listed_runs(path, rows) if start is None else sampled_runs(path, rows, start)
     if len(runs) > MOST_RUNS:
-        raise InputError([problem(path, "", f"{len(runs)} runs", f"at most {MOST_RUNS}")])
+        raise wrong(path, "", f"{len(runs)} runs", f"at most {MOST_RUNS}")
     return keys, runs

@@ -41,29 +41,20 @@ ClusterName=here
 SlurmctldHost=$host(127.0.0.1)
 SlurmctldPort=$(port)
 SlurmdPort=$(port)
-SlurmUser=root
-AuthType=auth/munge
 AuthInfo=socket=$work/munge.socket
-CredType=cred/munge
 StateSaveLocation=$work/state
 SlurmdSpoolDir=$work/spool
 SlurmctldPidFile=$work/slurmctld.pid
 SlurmdPidFile=$work/slurmd.pid
 ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
-JobAcctGatherType=jobacct_gather/none
-AccountingStorageType=accounting_storage/none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
-MpiDefault=none
-SwitchType=switch/none
 ReturnToService=2
 KillWait=5
 InactiveLimit=10
 SchedulerParameters=sched_min_interval=10000,batch_sched_delay=0
-SlurmctldTimeout=120
-SlurmdTimeout=120
 SlurmctldParameters=enable_configless
+SlurmdTimeout=120
 NodeName=$host NodeAddr=127.0.0.1 CPUs=$cpus State=UNKNOWN
 PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP OverSubscribe=NO
 END
@@ -84,15 +75,9 @@ give_up() {
 
 start munged --foreground --force --key-file="$work/munge/key" --socket="$work/munge.socket" \
   --pid-file="$work/munge/pid" --log-file="$work/munged-file.log" --seed-file="$work/munge/seed"
-for ((i = 0; i < 100; ++i)); do [ -S "$work/munge.socket" ] && break; sleep 0.1; done
-[ -S "$work/munge.socket" ] || give_up 'munged did not start'
+timeout 10 bash -c 'until [ -S "$0" ]; do sleep 0.1; done' "$work/munge.socket" || give_up 'munged did not start'
 start slurmctld -D -f "$SLURM_CONF"
 start slurmd -D -N "$host" -f "$SLURM_CONF"
-for ((i = 0; i < 300; ++i)); do
-  [ "$(sinfo --noheader --format=%t 2> /dev/null)" != idle ] || break
-  sleep 0.1
-done
-[ "$(sinfo --noheader --format=%t 2> /dev/null)" = idle ] || give_up 'the node did not get ready'
-code=0
-"$@" || code=$?
-exit $code
+timeout 30 bash -c 'until [ "$(sinfo --noheader --format=%t 2> /dev/null)" = idle ]; do sleep 0.1; done' ||
+  give_up 'the node did not get ready'
+"$@"

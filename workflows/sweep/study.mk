@@ -11,9 +11,13 @@ $(foreach name,PYTHON TOLERANCE SCENE SWEEP NAME LAUNCH FACTOR REGION DEEPER OUT
   BOUNDARY FROM TO LEVELS SCAN TOLERANCE_LEVEL STEADY SET,$(eval $(runs_goals): export $(name) := $$($(name))))
 $(runs_goals): $(if $(build_step),$(mesher) $(solver) $(post))
 
-.PHONY: study sweep
+.PHONY: study
 study:
 	@$(PYTHON) sweep/study.py
 
-sweep:
-	@MAKE='$(MAKE)' $(PYTHON) sweep/sweep.py
+# Studies of several runs: script_TARGET calls make for them.
+script_sweep := sweep/sweep.py
+of_several   := $(filter-out study adapt,$(runs_goals))
+.PHONY: $(of_several)
+$(of_several):
+	@MAKE='$(MAKE)' $(PYTHON) $(script_$@)

@@ -13,7 +13,7 @@ import sys
 
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(here.parent))
-from common import InputError, call, end_with, find_file, problem, programs_of
+from common import call, end_with, find_file, programs_of, wrong
 from inputs import write_inputs
 
 
@@ -46,7 +46,7 @@ def study():
 def adapt():
     over = os.environ.get("OVER", "")
     if over not in ("", "run"):
-        raise InputError([problem("OVER", "", f"'{over}'", "run")])
+        raise wrong("OVER", "", f"'{over}'", "run")
     scene = find_file("SCENE")
     stem = stem_of("adapt", scene)
     ended = subprocess.run([here.parent / "adapt.py", *["--over-run"] * bool(over), programs_of(), scene, stem])

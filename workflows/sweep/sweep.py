@@ -17,7 +17,8 @@ import sys
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(here.parent))
 from assessment import columns_of, is_assessed, reduction_options
-from common import InputError, csv_text, end_with, file_name, find_file, folder_of, problem, programs_of, read_csv, read_scene, run_json, write_changed
+from common import (csv_text, end_with, file_name, find_file, folder_of, programs_of, read, read_csv, read_scene, run_json, write_changed,
+                    wrong)
 from inputs import content, inputs_of
 from runs import read_runs
 
@@ -31,9 +32,9 @@ def refuse_foreign(folder, scene, sweep):
     """Throws InputError if another sweep with a table of this name made the runs of the folder."""
     sources = folder / "sources.txt"
     expected = f"{scene}\n{pathlib.Path(sweep).absolute()}\n"
-    if sources.is_file() and sources.read_text(encoding="utf-8") != expected:
-        found = " and ".join(sources.read_text(encoding="utf-8").splitlines())
-        raise InputError([problem(folder, "", f"the runs of {found}", "another NAME=, or no such folder")])
+    if sources.is_file() and read(sources) != expected:
+        found = " and ".join(read(sources).splitlines())
+        raise wrong(folder, "", f"the runs of {found}", "another NAME=, or no such folder")
     folder.mkdir(parents=True, exist_ok=True)
     write_changed(sources, expected)
 
@@ -64,11 +65,9 @@ def read_status(folder, name):
     inputs = folder / name / f"{name}.inputs"
     stopped = folder / name / f".{name}.messages"
     if status.is_file() and status.stat().st_mtime_ns > inputs.stat().st_mtime_ns:
-        word, *lines = status.read_text(encoding="utf-8", errors="replace").splitlines()
+        word, *lines = read(status).splitlines()
     else:
-        word, lines = "unfinished", []
-        if stopped.is_file():
-            lines = stopped.read_text(encoding="utf-8", errors="replace").splitlines()
+        word, lines = "unfinished", read(stopped).splitlines() if stopped.is_file() else []
     messages = [line for line in lines if ": warning: " not in line]
     return word, "" if word == "done" or not messages else messages[0]
 
@@ -200,7 +199,7 @@ def main():
     factor = os.environ.get("FACTOR", "")
     states = {"0": "", "1": "last"}.get(factor, factor)
     if states not in ("", "last", "all", "start", "checks"):
-        raise InputError([problem("FACTOR", "", f"'{factor}'", "1, all, start or checks")])
+        raise wrong("FACTOR", "", f"'{factor}'", "1, all, start or checks")
     folder = os.environ.get("SWEEP_FOLDER")
     return make(scene, table, pathlib.Path(folder) if folder else folder_of("sweep", table), states, not folder)
 

@@ -8,14 +8,13 @@ work=$scratch
 
 "$workflows/tests/accuracy.py" || failures=$((failures + 1))
 
-before=$(cat "$workflows/../docs/evidence/accuracy.md" "$workflows"/../docs/images/*.png | cksum)
-status=0
-make -C "$workflows" "${make_arguments[@]}" accuracy SHORT=1 OUT="$work/out" > "$log" 2>&1 || status=$?
-[ $status -eq 0 ] || cat "$log"
-expect 'accuracy SHORT=1' 0 $status
+documented() { cat "$workflows/../docs/evidence/accuracy.md" "$workflows"/../docs/images/*.png | cksum; }
+before=$(documented)
+run_make accuracy SHORT=1 OUT="$work/out"
+[ "$code" -eq 0 ] || cat "$log"
+expect 'accuracy SHORT=1' 0 "$code"
 grep '^\(ok\|WRONG\): ' "$log" || true
-expect 'it leaves the document as it is' "$before" \
-  "$(cat "$workflows/../docs/evidence/accuracy.md" "$workflows"/../docs/images/*.png | cksum)"
+expect 'it leaves the document as it is' "$before" "$(documented)"
 
 out=$work/out/accuracy-short
 judge() { /usr/bin/python3 "$workflows/accuracy/study.py" check "$out" "$1" > "$work/judged" && echo right || echo wrong; }

@@ -1,21 +1,17 @@
 #!/usr/bin/python3
 """Does the arithmetic of a study of convergence find orders and values that are known? Prints what fails."""
 
+import itertools
 import math
-import pathlib
-import sys
+import operator
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "convergence"))
 from expectations import expect, expect_near, finish
 from richardson import ORDERS_OF_TOLERANCE, estimate
 
 
 def refined(*ratios):
     """Sizes from 1 on, each finer by a ratio."""
-    sizes = [1.0]
-    for ratio in ratios:
-        sizes.append(sizes[-1] / ratio)
-    return sizes
+    return list(itertools.accumulate((1.0, *ratios), operator.truediv))
 
 
 REFINEMENTS = {"ratio 2": (2.0, 2.0), "ratios 1.5 and 1.7": (1.5, 1.7), "ratios 1.7 and 1.5": (1.7, 1.5),
@@ -79,8 +75,4 @@ def check_refused():
     expect("order 0.4 of a tolerance", "in range", estimate(refined(4.0, 4.0), values, ORDERS_OF_TOLERANCE).kind)
 
 
-if __name__ == "__main__":
-    check_manufactured()
-    check_published()
-    check_refused()
-    finish("orders, extrapolated values and indices of a study of convergence")
+finish("orders, extrapolated values and indices of a study of convergence", globals())

@@ -45,11 +45,7 @@ expect 'an output that is always 0' 'yes constant 0' "$(cells "$out/convergence.
 expect 'the paragraph is printed' 'The discharge that leaves (flux_out) is' "$(said 'The discharge that leaves (flux_out) is')"
 expect 'and written' same "$([[ $(< "$log") == *"$(< "$out/report.md")"* ]] && echo same)"
 
-before=$(statuses "$out")
-cp "$out/convergence.csv" "$work/table"
-study weir "${weir[@]}"
-expect 'a second call makes no run' "$before" "$(statuses "$out")"
-expect 'and the same table' same "$(cmp "$work/table" "$out/convergence.csv" && echo same)"
+expect_nothing_new convergence.csv study weir "${weir[@]}"
 
 # A channel grows in a path as wide as an element, and finer elements lose more and more fines.
 cp "$workflows/laboratory/channel.geo" .
@@ -60,12 +56,10 @@ expect 'a channel as wide as an element is not in its range: no value and no ind
 expect 'and the paragraph says so' 'The differences between them do not fall as the sizes do. This series is not in its range of convergence, so there is no' \
   "$(said 'The differences between them do not fall as the sizes do. This series is not in its range of convergence, so there is no')"
 
-# refused WHAT MESSAGE SCENE VARIABLE...: also sets `said`.
+# refused WHAT MESSAGE SCENE VARIABLE...
 refused() {
-  code=0
-  said=$(env SCENE="$3" OUT_FOLDER="$work/refused" PROGRAMS="$programs" MAKE=false CALLED_FROM="$PWD" "${@:4}" \
-    /usr/bin/python3 "$workflows/convergence/convergence.py" 2>&1) || code=$?
-  expect "$1" "2 convergence.py: $2" "$code $(head -1 <<< "$said")"
+  run_script convergence/convergence.py SCENE="$3" OUT_FOLDER="$work/refused" MAKE=false "${@:4}"
+  expect "$1" "2 convergence.py: $2" "$code $(head -1 "$log")"
 }
 refused 'sizes that are no numbers' "SIZES: got 'x'; expected numbers above 0 with commas between them" "a weir.toml" SIZES=0.2,x
 refused 'two sizes' "SIZES: got '0.2,0.1'; expected at least three different numbers" "a weir.toml" SIZES=0.2,0.1
@@ -87,7 +81,7 @@ sed -i 's/weir.geo/graded.geo/' "a weir.toml"
 sed 's/\(Point([0-9]*) = {[^}]*\)}/\1, 0.1}/g' "$workflows/examples/weir/weir.geo" > graded.geo
 refused 'a file with sizes of its own' "$PWD/a weir.toml: mesh.size: got 2208 elements with 0.4 m and 2208 with 0.2 m; expected elements \
 that become finer by 2, as mesh.size does" "a weir.toml" SIZES=0.4,0.2,0.1
-expect 'with what to do' 'Leave the fourth number of its points out' "$(grep -o 'Leave the fourth number of its points out' <<< "$said")"
+expect 'with what to do' 'Leave the fourth number of its points out' "$(said 'Leave the fourth number of its points out')"
 
 study launched SCENE=step.toml SIZES=0.2,0.1,0.05 LAUNCH=false
 expect 'a scheduler that refuses' '2 0 of 1 runs are done' "$code $(said '0 of 1 runs are done')"

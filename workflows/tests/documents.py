@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Numbers of the README and of tutorials against runs, and check_documents.py against a folder with mistakes.
 
     documents.py PROGRAMS
@@ -13,52 +13,42 @@ value, and how far a run may be from it. Sources are
     test FILE: TEXT             a test that asserts the number with these words; the test itself runs elsewhere
     page FILE: TEXT             a page whose tables a target measures, in these words; a target of hours makes them
 """
-import csv
 import re
-import subprocess
 import sys
 import tempfile
 from functools import cache
 from pathlib import Path
 
-WORKFLOWS = Path(__file__).resolve().parent.parent
-ROOT = WORKFLOWS.parent
-PROGRAMS = (WORKFLOWS / sys.argv[1]).resolve()
-WORK = Path(tempfile.mkdtemp())
+from expectations import workflows
+from common import call, read_rows
+
+ROOT = workflows.parent
+PROGRAMS = (workflows / sys.argv[1]).resolve()
+SCRATCH = tempfile.TemporaryDirectory()
+WORK = Path(SCRATCH.name)
 EXAMPLES = {"weir": "weir/weir.toml", "levee": "levee/flood.toml"}
-
-
-def said(*command):
-    """What a command writes; it may end with any exit code but has to write something."""
-    done = subprocess.run([str(word) for word in command], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          check=False)
-    if not done.stdout:
-        raise SystemExit(f"{command}: {done.stderr}")
-    return done.stdout
 
 
 @cache
 def results(example):
     """The results of an example, as a run of the scene makes them."""
     stem = WORK / example
-    said(PROGRAMS / "suffuse-mesher", WORKFLOWS / "examples" / EXAMPLES[example], "-o", f"{stem}.case.h5")
-    subprocess.run([PROGRAMS / "suffuse-solver", f"{stem}.case.h5", "-o", f"{stem}.results", "--quiet"], check=True)
+    call(PROGRAMS / "suffuse-mesher", workflows / "examples" / EXAMPLES[example], "-o", f"{stem}.case.h5")
+    call(PROGRAMS / "suffuse-solver", f"{stem}.case.h5", "-o", f"{stem}.results", "--quiet")
     return f"{stem}.results"
 
 
 @cache
 def checks(example):
-    return said(PROGRAMS / "suffuse-post", "check", results(example))
+    return call(PROGRAMS / "suffuse-post", "check", results(example)).stdout
 
 
 @cache
 def last_mesh(scene):
     """The last row of the table of an adapted mesh."""
     out = WORK / "adapted"
-    subprocess.run(["make", "-s", "-C", WORKFLOWS, "adapt", f"SCENE=adapt/{scene}.toml", f"BIN={PROGRAMS}", f"OUT={out}"],
-                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    with open(out / "adapt" / f"{scene}.adapt.csv", encoding="utf-8") as file:
-        return list(csv.DictReader(file))[-1]
+    call("make", "-s", "-C", workflows, "adapt", f"SCENE=adapt/{scene}.toml", f"BIN={PROGRAMS}", f"OUT={out}")
+    return read_rows(out / "adapt" / f"{scene}.adapt.csv")[-1]
 
 
 def found(source):
@@ -67,8 +57,7 @@ def found(source):
     if what == "adapt":
         return float(last_mesh(kind)[name])
     if kind == "history":
-        with open(f"{results(what)}/history.csv", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = read_rows(f"{results(what)}/history.csv")
         return len(rows) if name == "rows" else float(rows[-1][name])
     number = r"^%s +" % re.escape(name) if what == "levee" else r"^%s +\S+ +" % re.escape(name)
     return float(re.search(number + r"([0-9.eE+-]+)", checks(what), re.M)[1])
@@ -99,16 +88,14 @@ def mistakes_are_found():
                 "docs/b.md:3: there is no z.png", "README.md: has 613 words; expected at most 600",
                 "docs/b.md: is not in docs/README.md",
                 "check_documents: 3 pages, 5 words written below docs/ (23 by wc -w), 5 problems"]
-    lines = said(sys.executable, WORKFLOWS / "check_documents.py", root).splitlines()
+    lines = call(workflows / "check_documents.py", root, ok=(1,)).stdout.splitlines()
     return [] if lines == expected else [f"check_documents.py: got {lines}; expected {expected}"]
 
 
 def main():
-    with open(WORKFLOWS / "tests/numbers.csv", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = read_rows(workflows / "tests/numbers.csv")
     problems = [*mistakes_are_found(), *filter(None, map(problem_of, rows))]
     print("\n".join(problems + [f"documents: {len(rows)} numbers, {len(problems)} problems"]))
-    subprocess.run(["rm", "-rf", WORK], check=True)
     return 1 if problems else 0
 
 

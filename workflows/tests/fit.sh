@@ -7,12 +7,7 @@ set -euo pipefail
 cd "$work/my scenes"
 out="$work/o ut/fit/test"
 
-# fit VARIABLE...: sets `code` to the exit code and writes the output to log. Without make's Makefile, which takes seconds to read.
-fit() {
-  code=0
-  env SCENE="a column.toml" OUT_FOLDER="$work/o ut" NAME=test PROGRAMS="$programs" MAKE=make TOLERANCE=1e-12 CALLED_FROM="$PWD" "$@" \
-    /usr/bin/python3 "$workflows/fit/fit.py" > "$log" 2>&1 || code=$?
-}
+fit() { run_script fit/fit.py SCENE="a column.toml" NAME=test "$@"; }
 
 cp "$workflows/fit/column.geo" .
 sed 's/^end .*/end = 2400.0/; s/^snapshot_every.*/snapshot_every = 2400.0/' "$workflows/fit/column.toml" > "a column.toml"
@@ -82,11 +77,7 @@ expect 'curves of start and fit, and points' 'fit measured start' \
 expect 'the run of the refused call is taken' 0001 "$(sed -n 2p "$out/search.csv" | cut -d, -f2)"
 expect 'a residual for each point' "$((1 + 2 * ($(wc -l < points.csv) - 1)))" "$(wc -l < "$out/residuals.csv")"
 expect 'the paragraph is printed' same "$([[ $(< "$log") == *"$(< "$out/report.md")"* ]] && echo same)"
-before=$(statuses "$out")
-cp "$out/search.csv" "$work/search.csv"
-fit "${points[@]}" "${keys[@]}"
-expect 'a second call makes no run' "$before" "$(statuses "$out")"
-expect 'and the same search' same "$(cmp "$work/search.csv" "$out/search.csv" && echo same)"
+expect_nothing_new search.csv fit "${points[@]}" "${keys[@]}"
 
 # A stand-in of the solver fails where the rate is above a bound.
 mkdir "$work/bin"

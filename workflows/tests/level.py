@@ -4,19 +4,16 @@
 import math
 import os
 import pathlib
-import random
-import sys
 import tempfile
 
-workflows = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(workflows), str(workflows / "sweep"), str(workflows / "level")]
+from scipy.stats import binom
+
+from expectations import answer, expect, expect_near, finish
 from assessment import MECHANISMS as ON_LEVEL
 from assessment import Outcome, checks_of, outcomes_of, reduction_options, said_of_options, said_of_others, with_absent
 from critical_level import crossing, draw, replay, search
-from expectations import expect, expect_near, finish
 from fragility import bounds, draw_chart, groups_of, with_any
 from levels import Study, named_warnings
-from common import InputError
 from svg import CURVES, WIDTH
 
 FROM, TO, SCAN, TOLERANCE = 1.0, 4.0, [1.0, 1.75, 2.5, 3.25, 4.0], 0.03
@@ -111,16 +108,11 @@ def check_bounds():
         expect_near(f"{counts}: low", low, found[0], 5e-5)
         expect_near(f"{counts}: high", high, found[1], 5e-5)
     expect_near("none of 7", 1.0 - 0.025 ** (1.0 / 7.0), bounds(0, 7)[1], 1e-6)
+    intervals = [bounds(failures, 30) for failures in range(31)]
     for probability in (0.03, 0.2, 0.5):
-        generator = random.Random(f"coverage {probability}")
-        inside = 0
-        intervals = {}
-        for _ in range(2000):
-            failures = sum(generator.random() < probability for _ in range(30))
-            low, high = intervals.setdefault(failures, bounds(failures, 30))
-            inside += low <= probability <= high
-        # Of 2000 samples, 95 % or more; three standard errors are 1.5 %. Counts are whole, so it may be all but 1 %.
-        expect(f"{inside} of 2000 samples have {probability} within their bounds", True, 1870 <= inside <= 1995)
+        inside = sum(binom.pmf(failures, 30, probability) for failures, (low, high) in enumerate(intervals) if low <= probability <= high)
+        # 95 % or more; counts are whole, so it may be nearly all.
+        expect(f"{inside} of all samples have {probability} within their bounds", True, 0.95 <= inside <= 0.9975)
 
 
 def study(scene, **variables):
@@ -131,10 +123,8 @@ def study(scene, **variables):
         path = pathlib.Path(folder) / "scene.toml"
         path.write_text(scene, encoding="utf-8")
         (path.parent / "flood.csv").write_text("t,head\n0,1\n10,3\n20,0.5\n", encoding="utf-8")
-        try:
-            return Study(path)
-        except InputError as error:
-            return str(error).replace(str(path), "SCENE")
+        found = answer(Study, path)
+        return found.replace(str(path), "SCENE") if isinstance(found, str) else found
 
 
 SCENE = """
@@ -178,11 +168,8 @@ def check_scenes():
     expect("a change of the head", "SET: boundary[1].head: got the head that this study varies; expected other keys",
            study(SCENE, BOUNDARY="land", SET="boundary[1].head=3"))
     expect("no change", "SET: got 'x'; expected KEY=VALUE, with spaces between several", study(SCENE, BOUNDARY="land", SET="x"))
-    try:
-        river.check_levels("FROM", [0.5, 2.0])
-        expect("a level below the first head", "is refused", "is taken")
-    except InputError as error:
-        expect("a level below the first head", "FROM: got 0.5; expected a level above 1 m, the first head of the table", str(error))
+    expect("a level below the first head", "FROM: got 0.5; expected a level above 1 m, the first head of the table",
+           answer(river.check_levels, "FROM", [0.5, 2.0]))
 
 
 SLOPE_SCENE = """
@@ -302,12 +289,9 @@ def check_others():
 
 def reduction(region="", deeper="", keys=(), states="start", **scene):
     os.environ["REGION"], os.environ["DEEPER"] = region, deeper
-    try:
-        return reduction_options({"gravity": [0.0, -9.81], "soil": SOILS} | scene, list(keys), states)
-    except InputError as error:
-        return str(error)
-    finally:
-        os.environ["REGION"] = os.environ["DEEPER"] = ""
+    found = answer(reduction_options, {"gravity": [0.0, -9.81], "soil": SOILS} | scene, list(keys), states)
+    os.environ["REGION"] = os.environ["DEEPER"] = ""
+    return found
 
 
 SOILS = {"sand": {"skeleton": {"law": "mohr-coulomb"}}, "clay": {"like": "sand"}, "rock": {"skeleton": {"law": "rigid"}}, "fill": {"like": "rock"}, "a b": {}}
@@ -362,16 +346,4 @@ def check_charts():
     expect("each mechanism has a curve of its own, and so have two groups", True, len(CURVES) >= len(ON_LEVEL) + 2)
 
 
-if __name__ == "__main__":
-    check_search()
-    check_apart()
-    check_elastic()
-    check_bounds()
-    check_scenes()
-    check_outcomes()
-    check_absent()
-    check_others()
-    check_reduction()
-    check_warnings()
-    check_charts()
-    finish("levels, probabilities and what runs say of them")
+finish("levels, probabilities and what runs say of them", globals())

@@ -51,11 +51,7 @@ expect 'the lowest one governs' 'Heave by EN 1997-1, stresses begins at 1.46 m' 
 expect 'soil without a strength has no slope' 'slope was not looked at: no soil has a strength.' "$(said 'slope was not.*')"
 expect 'files' "$(printf '%s\n' critical.csv levels.csv levels.svg report.md runs table.csv)" "$(ls "$out")"
 expect 'the least factor governs at each level' "$(printf '%s\n' hyd-stresses erosion)" "$(awk -F, 'NR > 1 { for (i = 1; i <= NF; ++i) if ($i ~ /^(erosion|hyd-.*|heave)$/) print $i }' "$out/levels.csv" | uniq)"
-before=$(statuses "$out")
-cp "$out/levels.csv" "$work/table"
-run_make "${search[@]}"
-expect 'a second call makes nothing' "$before" "$(statuses "$out")"
-expect 'and the same table' same "$(cmp "$work/table" "$out/levels.csv" && echo same)"
+expect_nothing_new levels.csv run_make "${search[@]}"
 
 run_make critical-level "${column[@]}" FROM=1.6 TO=2 SCAN=2 NAME=ends
 expect 'a level below FROM' 'Erosion begins below FROM = 1.6 m: its factor is 0.833 there. It governs.' "$(said 'Erosion.*')"
@@ -96,7 +92,8 @@ cat >> lifted.toml <<'END'
 skeleton = {law = "mohr-coulomb", young = 1e7, poisson = 0.3, friction = 30, cohesion = 0.0}
 END
 out="$work/o ut/critical-level/lifted"
-run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2 TOLERANCE_LEVEL=0.1
+lifted=(critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2 TOLERANCE_LEVEL=0.1)
+run_make "${lifted[@]}"
 expect 'soil that fails is an answer' '0 between' "$code $(awk -F, '$1 == "slope" && $3 <= 2.19 && 2.19 <= $4 && $4 - $3 <= 0.1000001 { print "between" }' "$out/critical.csv")"
 expect 'what is not checked where soil moves is said' 'Heave by EN 1997-1 and uplift are not checked where soil moves' "$(said 'Heave by EN.*soil moves')"
 expect 'with its message' 'it fails without a factor: ' "$(said 'it fails without a factor: ')"
@@ -107,10 +104,9 @@ expect 'the slope has fewer levels than all together' fewer \
   "$(awk 'FNR == NR { ++all; next } { ++slope } END { print slope < all ? "fewer" : slope " of " all }' "$out/table.csv" "$out/slope.csv")"
 expect 'and a factor for each' "$(sed 1d "$out/slope.csv" | wc -l)" "$(find "$out/slope" -name '*.assessed' | wc -l)"
 before=$(statuses "$out")
-run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2 TOLERANCE_LEVEL=0.1
-expect 'a second call makes no factor' "$before" "$(statuses "$out")"
+expect_nothing_new levels.csv run_make "${lifted[@]}"
 rm "$out/slope/0004/0004.assessed"
-run_make critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1.8 TO=2.6 SCAN=2 TOLERANCE_LEVEL=0.1
+run_make "${lifted[@]}"
 expect 'one that is missing is made again' "$(cut -d' ' -f1 <<< "$before") 1" \
   "$(statuses "$out" | cut -d' ' -f1) $(comm -13 <(echo "$before") <(statuses "$out") | grep -c assessed)"
 
@@ -191,47 +187,40 @@ done
 printf '%s\n' 'boundary[0].head' 2.0 2.5 > heads.csv
 run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=1
 out="$work/o ut/sweep/heads"
-# column NAME: of sweep.csv, without texts in quotes.
-column() {
-  sed 's/"[^"]*"//g' "$out/sweep.csv" |
-    awk -F, -v wanted="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == wanted) at = i; next } { printf "%s ", $at }'
-}
-expect 'a sweep that tells how safe its runs are: erosion at i over 0.5' '0 0.5 0.3333333333 ' "$code $(column factor_erosion)"
-expect 'heave' 'yes' "$(column factor_heave | awk '{ print ($1 / 1.19 - 1) ^ 2 < 1e-9 && ($2 / 1.19 * 1.5 - 1) ^ 2 < 1e-9 ? "yes" : $0 }')"
-expect 'a state without a factor has the reason' '  no soil has a strength no soil has a strength ' "$(column factor)$(column factor_message)"
+expect 'a sweep that tells how safe its runs are: erosion at i over 0.5' '0 factor_erosion 0.5 0.3333333333' "$code $(echo $(column factor_erosion))"
+expect 'heave' 'yes' "$(echo $(column factor_heave) | awk '{ print ($2 / 1.19 - 1) ^ 2 < 1e-9 && ($3 / 1.19 * 1.5 - 1) ^ 2 < 1e-9 ? "yes" : $0 }')"
+expect 'a state without a factor has the reason' 'factor factor_message no soil has a strength no soil has a strength' \
+  "$(echo $(column factor) $(column factor_message))"
 expect 'no column of times' '' "$(head -1 "$out/sweep.csv" | grep -o 'seconds' || true)"
-before=$(statuses "$out")
-run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=1
-expect 'a second call makes nothing' "$before" "$(statuses "$out")"
+expect_nothing_new sweep.csv run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=1
 run_make sweep SCENE="a column.toml" SWEEP=heads.csv FACTOR=2
 expect 'an unknown FACTOR' "2 FACTOR: got '2'; expected 1, all, start or checks" "$code $(grep ^FACTOR "$log")"
 run_make sweep SCENE="a column.toml" SWEEP=heads.csv
 expect 'without FACTOR no such columns' '0 ' "$code $(head -1 "$out/sweep.csv" | grep -o 'factor' || true)"
 
+# refused WHAT MESSAGE SCRIPT VARIABLE...
 refused() {
-  local what=$1 message=$2
-  shift 2
-  run_make "$@" NAME=refused
-  expect "$what" "2 $message" "$code $(grep -o 'critical_level.py: .*\|fragility.py: .*' "$log" | head -1)"
+  run_script "level/$3.py" NAME=refused "${@:4}"
+  expect "$1" "2 $3.py: $2" "$code $(grep -m1 "^$3.py: " "$log")"
 }
-refused 'FROM above TO' 'critical_level.py: FROM: got 3, and TO=1; expected a level below TO' critical-level "${column[@]}" FROM=3 TO=1
-refused 'no TO' 'critical_level.py: TO: got nothing; expected a number' critical-level "${column[@]}" FROM=3
+refused 'FROM above TO' 'FROM: got 3, and TO=1; expected a level below TO' critical_level "${column[@]}" FROM=3 TO=1
+refused 'no TO' 'TO: got nothing; expected a number' critical_level "${column[@]}" FROM=3
 refused 'a boundary without a head' \
-  'critical_level.py: BOUNDARY: got "left", which has no head; expected a boundary with a head: "bottom" or "top"' \
-  critical-level "${column[@]}" BOUNDARY=left FROM=1 TO=3
-refused 'levels that fall' "fragility.py: LEVELS: got '3,1'; expected rising numbers with commas between them, m" \
+  'BOUNDARY: got "left", which has no head; expected a boundary with a head: "bottom" or "top"' \
+  critical_level "${column[@]}" BOUNDARY=left FROM=1 TO=3
+refused 'levels that fall' "LEVELS: got '3,1'; expected rising numbers with commas between them, m" \
   fragility "${column[@]}" LEVELS=3,1 SWEEP=draws.csv
-refused 'draws of the head' "fragility.py: $PWD/heads.csv: boundary[0].head: got a key that this study sets; expected other keys: \
+refused 'draws of the head' "$PWD/heads.csv: boundary[0].head: got a key that this study sets; expected other keys: \
 the level is that of LEVELS, others are in SET" fragility "${column[@]}" LEVELS=1,3 SWEEP=heads.csv
-refused 'a depth that is none' "critical_level.py: DEEPER: got '0'; expected a depth above 0, m" \
-  critical-level SCENE=lifted.toml BOUNDARY=bottom FROM=1 TO=3 DEEPER=0
+refused 'a depth that is none' "DEEPER: got '0'; expected a depth above 0, m" \
+  critical_level SCENE=lifted.toml BOUNDARY=bottom FROM=1 TO=3 DEEPER=0
 refused 'soil that does not fail' \
-  "fragility.py: REGION: got 'specimen'; expected soils with a strength, with spaces between several: a scene with such a soil; this one has none" \
+  "REGION: got 'specimen'; expected soils with a strength, with spaces between several: a scene with such a soil; this one has none" \
   fragility "${column[@]}" LEVELS=1,3 SWEEP=draws.csv REGION=specimen
 expect 'nothing is written' none "$(ls "$work/o ut/critical-level/refused" "$work/o ut/fragility/refused" 2> /dev/null || echo none)"
-refused 'keys that the mesher refuses' "critical_level.py: no run can be made: --set soil.specimen.porosity=2: soil.specimen.porosity: \
+refused 'keys that the mesher refuses' "no run can be made: --set soil.specimen.porosity=2: soil.specimen.porosity: \
 got 2; expected a number with 0 < n_0 < 1" \
-  critical-level "${column[@]}" FROM=1.1 TO=3 SCAN=2 SET=soil.specimen.porosity=2
+  critical_level "${column[@]}" FROM=1.1 TO=3 SCAN=2 SET=soil.specimen.porosity=2
 
 "$workflows/tests/level.py" || failures=$((failures + 1))
 finish levels

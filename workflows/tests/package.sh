@@ -41,19 +41,23 @@ mkdir "$root/srv/suffuse"
 cp "$folder"/suffuse*.deb "$source/docs/use/first-run.md" "$root/srv/suffuse/"
 cp -r "$source/tests/install/consumer" "$source/tests/ranks/scenes" "$root/srv/suffuse/"
 
-# inside: runs bash commands from stdin in the new system.
-inside() {
-  unshare --mount --pid --fork -- bash -c 'mount -t proc proc "$1/proc" && exec chroot "$1" \
-    env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 LINTIAN="$2" bash -eu -o pipefail' \
-    _ "$root" "${LINTIAN-lintian}"
-}
-save_archives() { cp -n "$root"/var/cache/apt/archives/*.deb "$cache/archives/" 2> /dev/null || true; }
-
-inside <<'E2' || { save_archives; fail 'installing'; }
-cd /srv/suffuse
+# What commands in the new system can use: apt, silent unless it fails, and files, which prints all files of folders but those of apt and dpkg.
+prelude='cd /srv/suffuse
 apt() { apt-get -qq --yes --no-install-recommends "$@" > log 2>&1 < /dev/null || { tail -20 log; return 1; }; }
-files() { find / -xdev \( -path /proc -o -path /srv -o -path /var/cache -o -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \
-  -o -path /tmp \) -prune -o -print | sort; }
+files() { find "${@:-/}" -xdev \( -path /proc -o -path /srv -o -path /var/cache -o -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \
+  -o -path /tmp \) -prune -o -print | sort; }'
+
+# inside WHAT: runs bash commands from stdin in the new system, and keeps what apt downloads there.
+inside() {
+  local status=0
+  { echo "$prelude"; cat; } | unshare --mount --pid --fork -- bash -c 'mount -t proc proc "$1/proc" && exec chroot "$1" \
+    env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 LINTIAN="$2" bash -eu -o pipefail' \
+    _ "$root" "${LINTIAN-lintian}" || status=$?
+  cp -n "$root"/var/cache/apt/archives/*.deb "$cache/archives/" 2> /dev/null || true
+  [ "$status" = 0 ] || fail "$1"
+}
+
+inside installing <<'E2'
 apt update
 # Dependencies are installed first, so that files left behind can only be the package's own.
 apt satisfy "$(dpkg-deb -f suffuse_*.deb Depends)"
@@ -91,14 +95,10 @@ files > after
 diff before after || { echo 'the package left these behind, or took them away'; exit 1; }
 echo 'removed: nothing is left'
 E2
-save_archives
 
 # Where PETSc is missing, suffuse-mpi is not made.
 if compgen -G "$folder/suffuse-mpi_*.deb" > /dev/null; then
-  inside <<'E2' || { save_archives; fail 'suffuse-mpi'; }
-cd /srv/suffuse
-apt() { apt-get -qq --yes --no-install-recommends "$@" > log 2>&1 < /dev/null || { tail -20 log; return 1; }; }
-files() { find /etc /usr /var/lib -xdev \( -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print | sort; }
+  inside suffuse-mpi <<'E2'
 apt install ./suffuse_*.deb
 mkdir ranks && cd ranks
 suffuse-mesher ../scenes/basin.toml -o basin.case.h5 > log
@@ -109,7 +109,7 @@ suffuse-solver basin.case.h5 -o shared --ranks 2 2> log || code=$?
 chown -R 1000 .
 cd ..
 apt satisfy "$(dpkg-deb -f suffuse-mpi_*.deb Depends)"
-files > before-mpi
+files /etc /usr /var/lib > before-mpi
 apt install ./suffuse-mpi_*.deb
 cd ranks
 HOME=$PWD setpriv --reuid 1000 --regid 1000 --clear-groups suffuse-solver basin.case.h5 -o shared --ranks 2 --quiet 2> log || { cat log; exit 1; }
@@ -120,14 +120,11 @@ man suffuse-solver-mpi > page 2> warnings
 echo "suffuse-mpi: --ranks 2 has the files of one process; beside $(dpkg-query -W | wc -l) packages"
 cd ..
 apt purge suffuse-mpi
-files | diff before-mpi - || { echo 'suffuse-mpi left these behind, or took them away'; exit 1; }
+files /etc /usr /var/lib | diff before-mpi - || { echo 'suffuse-mpi left these behind, or took them away'; exit 1; }
 E2
-  save_archives
 fi
 
-inside <<'E2' || { save_archives; fail 'the packages for others'; }
-cd /srv/suffuse
-apt() { apt-get -qq --yes --no-install-recommends "$@" > log 2>&1 < /dev/null || { tail -20 log; return 1; }; }
+inside 'the packages for others' <<'E2'
 apt install ./suffuse_*.deb ./suffuse-dev_*.deb cmake g++ make python3-h5py
 python3 -c 'import suffuse; print("suffuse.py:", suffuse.open("run/weir.results"))'
 cmake -S consumer -B build > log && cmake --build build >> log || { cat log; exit 1; }
@@ -137,4 +134,3 @@ if [ -n "$LINTIAN" ]; then
   lintian --fail-on error suffuse*.deb && echo 'lintian: no errors'
 fi
 E2
-save_archives

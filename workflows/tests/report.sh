@@ -3,6 +3,7 @@
 # of it into FOLDER. Fails if the page writes to the console or requests anything, or if its sliders
 # and tables do not work. If Chromium is missing, it says so and does nothing.
 set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 post=$(realpath "$1") results=$(realpath "$2") folder=$3
 mkdir -p "$folder"
 cd "$folder"
@@ -10,12 +11,8 @@ if ! command -v chromium > /dev/null; then
   echo "skipped: chromium is not installed"
   exit 0
 fi
-failures=0
-check() {
-  if [ "$2" == "$3" ]; then echo "ok: $1"; else echo "FAILED: $1: got '$2'; expected '$3'"; failures=$((failures + 1)); fi
-}
-profile=$(mktemp -d)
-trap 'rm -rf "$profile"' EXIT
+profile=$scratch/profile
+mkdir "$profile"
 # browse PAGE OPTION...
 browse() {
   timeout 120 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --no-first-run --user-data-dir="$profile" \
@@ -62,15 +59,15 @@ title=$(browse watched.html --virtual-time-budget=20000 --log-net-log="$profile/
   sed -n 's:^<title>\(.*\)</title>.*:\1:p')
 value() { sed -n "s/.* $1=\([^ ]*\).*/\1/p" <<< " $title"; }
 frames=$(value shown)
-check 'the slider at its start shows the first picture alone' "$frames" "1${frames:1}"
-check 'and no other' "${frames//[!1]/}" 1
-for name in first together pictures ascending descending decoded; do check "$name" "$(value $name)" true; done
-check 'requests of the page' "$(value requests)" 0
-check 'errors of the page' "$(value errors)" 0
-check 'messages in the console' "$(grep -c 'CONSOLE' browser.log || true)" 0
+expect 'the slider at its start shows the first picture alone' "1${frames:1}" "$frames"
+expect 'and no other' 1 "${frames//[!1]/}"
+for name in first together pictures ascending descending decoded; do expect "$name" true "$(value $name)"; done
+expect 'requests of the page' 0 "$(value requests)"
+expect 'errors of the page' 0 "$(value errors)"
+expect 'messages in the console' 0 "$(grep -c 'CONSOLE' browser.log || true)"
 # Chromium requests its own updates from Google.
-check 'addresses in the log of the network' "$(grep -o '"url":"[^"]*"' "$profile/net.json" |
-  grep -v '"url":"\(file\|data\|chrome\|devtools\|about\):' | grep -vE '"https?://[a-z0-9.]*google(apis)?\.com/' | sort -u)" ''
+expect 'addresses in the log of the network' '' "$(grep -o '"url":"[^"]*"' "$profile/net.json" |
+  grep -v '"url":"\(file\|data\|chrome\|devtools\|about\):' | grep -vE '"https?://[a-z0-9.]*google(apis)?\.com/' | sort -u)"
 
 for width in 1600 800; do
   browse report.html --window-size=$width,5200 --screenshot="light-$width.png"
@@ -78,7 +75,7 @@ for width in 1600 800; do
 done
 browse report.html --no-pdf-header-footer --print-to-pdf=report.pdf
 for file in light-1600.png light-800.png dark-1600.png dark-800.png report.pdf; do
-  check "$file is there" "$([ -s "$file" ] && echo yes)" yes
+  expect "$file is there" yes "$([ -s "$file" ] && echo yes)"
 done
 echo "The page and its pictures are in $PWD"
-exit $((failures > 0))
+finish 'the report'

@@ -4,42 +4,23 @@
 import math
 import pathlib
 import statistics
-import sys
 import tempfile
 
-workflows = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(workflows), str(workflows / "sweep")]
-from expectations import expect, expect_near, finish
-from common import InputError
+from scipy import stats
+
+from expectations import answer, expect, expect_near, finish
 from runs import read_runs
 from sampling import Distribution
 
-
-def integral(density, low, high, count=20000):
-    """Integral by Simpson's rule."""
-    step = (high - low) / count
-    inner = sum((4 if i % 2 else 2) * density(low + i * step) for i in range(1, count))
-    return (density(low) + inner + density(high)) * step / 3.0
-
-
-def normal_density(mean, deviation):
-    return lambda x: math.exp(-0.5 * ((x - mean) / deviation) ** 2) / (deviation * math.sqrt(2.0 * math.pi))
-
-
-def lognormal_density(mean, deviation):
-    """Density of x > 0 with this mean and deviation, by its median and the variance of log x."""
-    variance = math.log(1.0 + (deviation / mean) ** 2)
-    median = mean * math.exp(-variance / 2.0)
-    return lambda x: math.exp(-math.log(x / median) ** 2 / (2.0 * variance)) / (x * math.sqrt(2.0 * math.pi * variance))
-
-
-# A distribution, its density, and the ends between which nearly all values lie.
+# The square of deviation over mean is 1/4, so the variance of the logarithm is log(1 + 1/4), and the median 2 / sqrt(1 + 1/4).
+LOGNORMAL = stats.lognorm(math.sqrt(math.log(1.25)), scale=2.0 / math.sqrt(1.25))
+# A distribution, and SciPy's before values are cut off.
 CASES = [
-    ("normal", {"mean": 0.3, "deviation": 0.02}, normal_density(0.3, 0.02), 0.1, 0.5),
-    ("normal", {"mean": 0.3, "deviation": 0.1, "min": 0.25, "max": 0.5}, normal_density(0.3, 0.1), 0.25, 0.5),
-    ("lognormal", {"mean": 2.0, "deviation": 1.0}, lognormal_density(2.0, 1.0), 1e-3, 60.0),
-    ("lognormal", {"mean": 2.0, "deviation": 1.0, "max": 3.0}, lognormal_density(2.0, 1.0), 1e-3, 3.0),
-    ("uniform", {"min": -1.0, "max": 3.0}, lambda x: 0.25, -1.0, 3.0),
+    ("normal", {"mean": 0.3, "deviation": 0.02}, stats.norm(0.3, 0.02)),
+    ("normal", {"mean": 0.3, "deviation": 0.1, "min": 0.25, "max": 0.5}, stats.norm(0.3, 0.1)),
+    ("lognormal", {"mean": 2.0, "deviation": 1.0}, LOGNORMAL),
+    ("lognormal", {"mean": 2.0, "deviation": 1.0, "max": 3.0}, LOGNORMAL),
+    ("uniform", {"min": -1.0, "max": 3.0}, stats.uniform(-1.0, 4.0)),
 ]
 
 
@@ -55,15 +36,21 @@ def check_integers():
     expect("large whole numbers", True, all(text.isdigit() for text in large))
 
 
-def check_distribution(name, parameters, density, low, high):
+def check_distributions():
+    for case in CASES:
+        expect_distribution(*case)
+
+
+def expect_distribution(name, parameters, exact):
     what = f"{name} {parameters}"
     distribution = Distribution(name, parameters)
-    whole = integral(density, low, high)
+    low, high = parameters.get("min"), parameters.get("max")
+    first, last = 0.0 if low is None else exact.cdf(low), 1.0 if high is None else exact.cdf(high)
+    share_below = lambda value: (exact.cdf(value) - first) / (last - first)
     for share in (0.001, 0.1, 0.25, 0.5, 0.9, 0.999):
-        below = integral(density, low, distribution.quantile(share)) / whole
-        expect_near(f"{what}: share below the quantile of {share}", share, below, 1e-6)
-    mean = integral(lambda x: x * density(x), low, high) / whole
-    deviation = math.sqrt(integral(lambda x: (x - mean) ** 2 * density(x), low, high) / whole)
+        expect_near(f"{what}: share below the quantile of {share}", share, share_below(distribution.quantile(share)), 1e-6)
+    mean = exact.expect(lb=low, ub=high, conditional=True)
+    deviation = math.sqrt(exact.expect(lambda x: (x - mean) ** 2, lb=low, ub=high, conditional=True))
     count = 20000
     values = [float(text) for text in distribution.sample("soil.a.porosity", 1, count)]
     # The tolerance is four standard errors; the seed is always the same.
@@ -72,8 +59,7 @@ def check_distribution(name, parameters, density, low, high):
     values.sort()
     for share in (0.1, 0.5, 0.9):
         error = 4.0 * math.sqrt(share * (1.0 - share) / count)
-        below = integral(density, low, values[int(share * count)]) / whole
-        expect_near(f"{what}: quantile {share} of a sample", share, below, error)
+        expect_near(f"{what}: quantile {share} of a sample", share, share_below(values[int(share * count)]), error)
 
 
 def check_seeds():
@@ -106,7 +92,6 @@ PINNED_LATIN_HYPERCUBE = ["0.6128736991", "0.7781635443", "0.2918221388"]
 PINNED_LOGNORMAL = ["0.007637445206", "0.0253481138", "0.03726107624"]
 PINNED_NORMAL = ["0.2829463443", "0.2874452831", "0.3041719825"]
 HEADER = "key,distribution,mean,deviation,min,max"
-LISTED = "a,b\n1,2\n"
 SAMPLED = f"runs,2\nseed,1\n{HEADER}\n"
 
 # Texts of a table, and the messages about them; TABLE stands for its path.
@@ -154,14 +139,11 @@ def check_tables():
 
         def said_of(text):
             path.write_text(text, encoding="utf-8")
-            try:
-                return read_runs(path)
-            except InputError as error:
-                return str(error).replace(str(path), "TABLE")
+            return answer(read_runs, path)
 
         for text, message in WRONG:
-            expect(repr(text[:80]), message, said_of(text))
-        expect("no file", f"{folder}/none.csv: No such file or directory", message_of(f"{folder}/none.csv"))
+            expect(repr(text[:80]), message.replace("TABLE", str(path)), said_of(text))
+        expect("no file", f"{folder}/none.csv: No such file or directory", answer(read_runs, f"{folder}/none.csv"))
         expect("comments, empty cells, a byte order mark", (["a", "b"], [["1", ""], ["[[0, 1]]", "x"]]),
                said_of('\ufeff# of keys\na, b\n1,\n\n"[[0, 1]]",x\n'))
         keys, runs = said_of(SAMPLED + "a,uniform,,,1,2\nb,normal,0,1,,\n")
@@ -172,18 +154,4 @@ def check_tables():
         expect("sampled: runs", Distribution("uniform", {"min": 1.0, "max": 2.0}).sample("a", 1, 2), [run[0] for run in runs])
 
 
-def message_of(path):
-    try:
-        return read_runs(path)
-    except InputError as error:
-        return str(error)
-
-
-if __name__ == "__main__":
-    for case in CASES:
-        check_distribution(*case)
-    check_integers()
-    check_seeds()
-    check_latin_hypercube()
-    check_tables()
-    finish("distributions, seeds and tables of a sweep")
+finish("distributions, seeds and tables of a sweep", globals())

@@ -4,7 +4,8 @@
 # Skipped if Slurm is missing.
 set -euo pipefail
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
+work=$scratch
 runs=${SLURM_TEST_RUNS:-100}
 
 # sweep OUT ARGUMENT...
@@ -30,13 +31,6 @@ one_solver() {
 parent() { awk '{ print $4 }' "/proc/$1/stat" 2> /dev/null; }
 
 job_of() { tr '\0' '\n' 2> /dev/null < "/proc/$1/environ" | sed -n 's/^SLURM_JOB_ID=//p' | grep .; }
-
-# tree PID: prints the process and all its descendants. Jobs are descendants of slurmd.
-tree() {
-  local child
-  echo "$1"
-  for child in $(pgrep -P "$1"); do tree "$child"; done
-}
 
 ended() { find "$work/slurm" -name '0*.status' 2> /dev/null | wc -l; }
 
@@ -70,7 +64,7 @@ if [ "${1:-}" = inside ]; then
       scancel "$job" || true
     fi
   done
-  # Kills make with the sweep's own processes.
+  # Kills make with the sweep's own processes. Jobs are descendants of slurmd.
   for pid in $(tree $caller); do kill -9 "$pid" 2> /dev/null || true; done
   wait "$caller" 2> /dev/null || true
   echo "killed $killed runs, steps and jobs, and make at $(ended) of $runs runs"
@@ -81,9 +75,6 @@ if [ "${1:-}" = inside ]; then
   exit 0
 fi
 
-make_arguments=("$@")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 sed 's/^end *=.*/end = 20.0/' "$workflows/stress/kill.toml" > "$work/column.toml"
 printf '%s\n' "runs,$runs" seed,1 key,distribution,mean,deviation,min,max \
   soil.specimen.conductivity,lognormal,2e-2,1e-2,, soil.specimen.erosion.rate,uniform,,,1,8 > "$work/runs.csv"

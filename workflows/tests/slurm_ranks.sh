@@ -37,10 +37,9 @@ expect_checkpoint() {
 
 # seconds COMMAND...: runs it and prints how long it took.
 seconds() {
-  local start
-  start=$(date +%s.%N)
+  local start=$SECONDS
   "$@" >&2
-  awk -v s="$start" -v e="$(date +%s.%N)" 'BEGIN { printf "%.0f s", e - s }'
+  echo "$((SECONDS - start)) s"
 }
 
 # This part runs within slurm_here.sh.
@@ -62,26 +61,24 @@ if [ "${1:-}" = inside ]; then
   sleep 3
   scancel --batch --signal=USR1 "$job"
   stopped=$SECONDS
-  restarts() { scontrol show job "$job" | sed -n 's/.* Restarts=\([0-9]*\).*/\1/p'; }
-  state() { scontrol show job "$job" | sed -n 's/.*JobState=\([A-Z]*\).*/\1/p'; }
-  for ((i = 0; i < 600; ++i)); do [ "$(restarts)" != 1 ] || break; sleep 0.1; done
-  [ "$(restarts)" = 1 ] || fail 'the job did not return to the queue'
+  # of_job KEY: what Slurm says of the job.
+  of_job() { scontrol show job "$job" | sed -n "s/.*$1=\([A-Z0-9]*\).*/\1/p"; }
+  for ((i = 0; i < 600; ++i)); do [ "$(of_job Restarts)" != 1 ] || break; sleep 0.1; done
+  [ "$(of_job Restarts)" = 1 ] || fail 'the job did not return to the queue'
   expect_checkpoint short
-  for ((i = 0; i < 600; ++i)); do [ "$(state)" != COMPLETED ] || break; sleep 1; done
+  for ((i = 0; i < 600; ++i)); do [ "$(of_job JobState)" != COMPLETED ] || break; sleep 1; done
   took=$((SECONDS - stopped))
-  [ "$(state)" = COMPLETED ] || fail "the job that returned to the queue ended as $(state)"
+  [ "$(of_job JobState)" = COMPLETED ] || fail "the job that returned to the queue ended as $(of_job JobState)"
   expect_same short
   echo "a job stopped by scancel returned to the queue, went on at t = $(of_run short resumed_at) s and has the files of the serial run, $took s later"
   exit 0
 fi
 
-workflows=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 script=$workflows/tests/slurm_ranks.sh
 PATH=$(cd "$1" && pwd):$PATH
 [ -x "$1/suffuse-solver-mpi" ] || { echo 'slurm_ranks.sh: there is no suffuse-solver-mpi, which needs MPI and PETSc; skipped' >&2; exit 0; }
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
+cd "$scratch"
 # run_alone NAME END: a case and its serial run. Snapshots are far apart, so that a run goes on from its checkpoint.
 run_alone() {
   suffuse-mesher "$workflows/../tests/ranks/scenes/basin.toml" -o "$1.case.h5" --set time.end="$2" \

@@ -10,12 +10,7 @@ cd "$work/my scenes"
 export MAKE='make TEST=1'
 run_sweep() { run_make sweep SCENE="a column.toml" SWEEP="of rates.csv" "$@"; }
 
-# column N...: these columns of the table, without texts in quotes.
-column() { sed 's/"[^"]*"//g' "$out/sweep.csv" | cut -d, -f"$1"; }
-
-# Paths, times and sizes of what the runs made.
-inventory() { (cd "$out" && find . -type f -path './0*' -not -name '.*' -printf '%P %T@ %s\n' | sort); }
-redone() { comm -13 <(echo "$1") <(inventory) | cut -d' ' -f1 | grep 'run.json\|status' || true; }
+runs_redone() { redone "$out" | grep 'run.json\|status' || true; }
 
 sed 's/^end *=.*/end = 4.0/' "$workflows/stress/kill.toml" > "a column.toml"
 cat > "of rates.csv" <<'END'
@@ -30,9 +25,9 @@ out="$work/o ut/sweep/of rates"
 
 run_sweep
 expect 'a refused run makes the sweep fail' 2 "$code"
-expect 'and the others are made' "$(printf '%s\n' status done done refused done)" "$(column 4)"
-expect 'every row is in the table, in order' "$(printf '%s\n' run 0001 0002 0003 0004)" "$(column 1)"
-expect 'values of keys are those of the table' "$(printf '%s\n' soil.specimen.erosion.rate 4.0 2.0 -1.0 1.0)" "$(column 2)"
+expect 'and the others are made' "$(printf '%s\n' status done done refused done)" "$(column status)"
+expect 'every row is in the table, in order' "$(printf '%s\n' run 0001 0002 0003 0004)" "$(column run)"
+expect 'values of keys are those of the table' "$(printf '%s\n' soil.specimen.erosion.rate 4.0 2.0 -1.0 1.0)" "$(column soil.specimen.erosion.rate)"
 expect 'the message is in the table' \
   '--set soil.specimen.erosion.rate=-1.0: soil.specimen.erosion.rate: got -1.0; expected' \
   "$(grep ^0003 "$out/sweep.csv" | grep -o -- '--set.*expected')"
@@ -50,15 +45,15 @@ expect 'figures' "$(printf '%s\n' distribution.png over-soil.specimen.erosion.ra
 expect 'a run has its case, results and ledger' "$(printf '%s\n' 0001.case.h5 0001.inputs 0001.ledger.csv 0001.log \
   0001.results 0001.status)" "$(ls "$out/0001")"
 
-before=$(inventory)
+before=$(inventory "$out")
 cp "$out/sweep.csv" "$work/table"
 run_sweep
 expect 'a second call says the same' 2 "$code"
-expect 'and makes nothing' '' "$(redone "$before")"
+expect 'and makes nothing' '' "$(runs_redone)"
 
 sed -i 's/^1.0,/0.5,/' "of rates.csv"
 run_sweep
-expect 'another row makes that run' "$(printf '%s\n' 0004/0004.results/run.json 0004/0004.status)" "$(redone "$before")"
+expect 'another row makes that run' "$(printf '%s\n' 0004/0004.results/run.json 0004/0004.status)" "$(runs_redone)"
 sed -i 's/^0.5,/1.0,/' "of rates.csv"
 run_sweep
 expect 'the row as it was, the table as it was' same "$(cmp "$work/table" "$out/sweep.csv" && echo same)"
@@ -86,15 +81,15 @@ expect 'killed and called again, the same table' same "$(cmp "$work/table" "$out
 
 rm "$out/0002/0002.status"
 sed -i 's/"status": *"done"/"status": "running"/' "$out/0002/0002.results/run.json"
-before=$(inventory)
+before=$(inventory "$out")
 run_sweep
-expect 'a run that was stopped goes on alone' "$(printf '%s\n' 0002/0002.results/run.json 0002/0002.status)" "$(redone "$before")"
+expect 'a run that was stopped goes on alone' "$(printf '%s\n' 0002/0002.results/run.json 0002/0002.status)" "$(runs_redone)"
 expect 'from where it stood' '"resumed_at": 4' "$(grep -o '"resumed_at": *[0-9]*' "$out/0002/0002.results/run.json")"
 
 sed -i '/^-1.0/d; /^1.0/d' "of rates.csv"
 run_sweep
 expect 'without its wrong row the sweep is well' 0 "$code"
-expect 'and rows that are gone are not in the table' "$(printf '%s\n' run 0001 0002)" "$(column 1)"
+expect 'and rows that are gone are not in the table' "$(printf '%s\n' run 0001 0002)" "$(column run)"
 
 printf '%s\n' runs,3 seed,1 key,distribution,mean,deviation,min,max soil.specimen.porosity,uniform,,,0.2,0.4 > sampled.csv
 run_make sweep SCENE="a column.toml" SWEEP=sampled.csv NAME="an other"
