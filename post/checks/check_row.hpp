@@ -2,6 +2,7 @@
 
 /// What a check found for one mechanism at one place.
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +23,14 @@ struct CheckRow {
   std::optional<double> factor{};  ///< resistance over effect; nothing: the mechanism does not act
   std::vector<double> place{};     ///< m; empty: everywhere
   std::string note{};              ///< a sentence about this row; may be empty
+  /// Time of the first snapshot whose factor is below 1, s; not a number where there is none.
+  double first_below = unset;
 
   [[nodiscard]] bool fails() const { return factor && *factor < 1.0; }
+  /// Takes note of the factor of a snapshot. Snapshots come in the order of time.
+  void note_factor(double found, double at) {
+    if (found < 1.0 && std::isnan(first_below)) first_below = at;
+  }
 };
 
 }  // namespace suffuse

@@ -28,6 +28,7 @@ std::vector<CheckRow> heave_checks(const ResultsReader& results) {
     const LeastSafety& least = *parts[i].least;
     rows.push_back({"heave", parts[i].name, "Terzaghi, i_cr / i", least.time, least.gradient,
                     least.critical_gradient, "1", least.safety, least.place});
+    rows.back().first_below = parts[i].first_below.value_or(unset);
   }
   return rows;
 }
@@ -94,7 +95,7 @@ std::string exact_cell(double value) {
 }
 
 /// Columns of the text: the first two aligned to the left.
-std::vector<std::string> text_cells(const CheckRow& row) {
+std::vector<std::string> text_cells(const CheckRow& row, const TimeUnit& unit) {
   const auto with_unit = [&](double value) {
     return rounded_cell(value) +
            (std::isnan(value) || row.unit == "1" || row.unit.empty() ? "" : " " + row.unit);
@@ -102,26 +103,41 @@ std::vector<std::string> text_cells(const CheckRow& row) {
   return {row.mechanism,
           row.where,
           row.factor ? short_text(*row.factor) : "-",
+          limit_word(row),
           with_unit(row.effect),
           with_unit(row.resistance),
-          rounded_cell(row.time),
+          std::isnan(row.time) ? "-" : time_digits(row.time, unit),
           row.place.empty() ? "-" : place_text(row.place),
           row.clause};
 }
 
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
+/// The lines with their cells in columns.
+std::vector<std::string> aligned(const std::vector<std::vector<std::string>>& lines) {
   std::vector<std::size_t> width(lines.front().size(), 0);
   for (const auto& line : lines) {
     for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], line[k].size());
   }
-  std::string text;
+  std::vector<std::string> texts;
   for (const auto& line : lines) {
+    std::string& text = texts.emplace_back();
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const int columns = static_cast<int>(width[k]);
       text += padded(line[k], k < 2 ? -columns : columns) + "  ";
     }
-    text += line.back() + "\n";
+    text += line.back();
   }
+  return texts;
+}
+
+/// Sentences about a row: since when its factor is below 1, and its note.
+std::string sentences_of(const CheckRow& row, const TimeUnit& unit) {
+  const std::string start = row.mechanism + ", " + row.where + ": ";
+  std::string text;
+  if (!std::isnan(row.first_below)) {
+    text += start + "the factor is below 1 for the first time at t = " +
+            time_digits(row.first_below, unit) + " " + unit.name + "\n";
+  }
+  if (!row.note.empty()) text += start + row.note + "\n";
   return text;
 }
 
@@ -166,30 +182,48 @@ CheckReport check_run(const ResultsReader& results, const CheckSettings& setting
   return report;
 }
 
-std::string check_text(const CheckReport& report) {
-  std::vector<std::vector<std::string>> lines{
-      {"mechanism", "where", "factor", "effect", "resistance", "t (s)", "at (m)", "by"}};
-  for (const CheckRow& row : report.rows) lines.push_back(text_cells(row));
+std::vector<CheckRow> exceeded_first(std::vector<CheckRow> rows) {
+  std::ranges::stable_partition(rows, &CheckRow::fails);
+  return rows;
+}
+
+std::string limit_word(const CheckRow& row) {
+  if (!row.factor) return "-";
+  return row.fails() ? "EXCEEDED" : "kept";
+}
+
+std::string check_text(const CheckReport& report, const TextStyle& style) {
+  const std::vector<CheckRow> rows = exceeded_first(report.rows);
+  std::vector<std::vector<std::string>> cells{{"mechanism", "where", "factor", "limit", "effect",
+                                               "resistance", "t (" + style.time.name + ")",
+                                               "at (m)", "by"}};
+  for (const CheckRow& row : rows) cells.push_back(text_cells(row, style.time));
+  const std::vector<std::string> lines = aligned(cells);
   std::string text =
-      "factor = resistance / effect, partial factors included; below 1 the limit is passed\n" +
-      aligned(lines);
-  for (const CheckRow& row : report.rows) {
-    if (!row.note.empty()) text += row.mechanism + ", " + row.where + ": " + row.note + "\n";
+      "factor = resistance / effect, partial factors included; below 1 the limit is exceeded\n" +
+      lines.front() + "\n";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    text += (rows[k].fails() ? alarm_line(lines[k + 1], style) : lines[k + 1]) + "\n";
   }
+  for (const CheckRow& row : rows) text += sentences_of(row, style.time);
   text += "not looked at:\n";
   for (const std::string& sentence : report.not_looked_at) text += "  " + sentence + "\n";
   for (const std::string& message : report.refused) text += "  not possible: " + message + "\n";
   return text;
 }
 
-std::string check_table(const CheckReport& report, int dimension) {
+std::string check_table(const CheckReport& report, int dimension,
+                        const std::optional<TimeUnit>& unit) {
   const std::string z = dimension == 3 ? ",z" : "";
-  std::string text = "mechanism,where,clause,t,effect,resistance,unit,factor,x,y" + z + ",note\n";
+  const std::string of_time = unit ? " [" + unit->name + "]" : "";
+  const double seconds = unit.value_or(TimeUnit{}).seconds;
+  std::string text = "mechanism,where,clause,t" + of_time + ",effect,resistance,unit,factor,x,y" +
+                     z + ",note,t_below_1" + of_time + "\n";
   for (const CheckRow& row : report.rows) {
     std::vector<std::string> cells{row.mechanism,
                                    row.where,
                                    row.clause,
-                                   exact_cell(row.time),
+                                   exact_cell(row.time / seconds),
                                    exact_cell(row.effect),
                                    exact_cell(row.resistance),
                                    row.unit,
@@ -198,14 +232,16 @@ std::string check_table(const CheckReport& report, int dimension) {
       cells.push_back(row.place.empty() ? "" : number_text(row.place[d]));
     }
     cells.push_back(row.note);
+    cells.push_back(exact_cell(row.first_below / seconds));
     for (std::size_t k = 0; k < cells.size(); ++k) text += (k == 0 ? "" : ",") + csv_cell(cells[k]);
     text += "\n";
   }
   return text;
 }
 
-void write_checks(const std::string& path, const CheckReport& report, int dimension) {
-  const std::string text = check_table(report, dimension);
+void write_checks(const std::string& path, const CheckReport& report, int dimension,
+                  const std::optional<TimeUnit>& unit) {
+  const std::string text = check_table(report, dimension, unit);
   if (path == "-") {
     std::cout << text;
     return;

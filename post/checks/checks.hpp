@@ -2,11 +2,13 @@
 
 /// All checks of a run, as text and as a table.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "checks/check_row.hpp"
 #include "scene/check_settings.hpp"
+#include "tables/table_output.hpp"
 
 namespace suffuse {
 
@@ -25,15 +27,23 @@ CheckSettings check_settings(const ResultsReader& results, const std::vector<std
 /// Throws FileError.
 CheckReport check_run(const ResultsReader& results, const CheckSettings& settings);
 
-/// The rows as an aligned table, and what was not looked at.
-std::string check_text(const CheckReport& report);
+/// The rows with exceeded limits first, otherwise in their order.
+std::vector<CheckRow> exceeded_first(std::vector<CheckRow> rows);
+/// "EXCEEDED", "kept", or "-" for a row without a factor.
+std::string limit_word(const CheckRow& row);
 
-/// CSV: mechanism, where, clause, t, effect, resistance, unit, factor, x, y (z in space), note.
-/// Times in s.
-std::string check_table(const CheckReport& report, int dimension);
+/// The rows as an aligned table, those with exceeded limits first; since when factors are below 1;
+/// what was not looked at.
+std::string check_text(const CheckReport& report, const TextStyle& style = {});
+
+/// CSV: mechanism, where, clause, t, effect, resistance, unit, factor, x, y (z in space), note,
+/// t_below_1. Times in s; in `unit`, which is in their heads then.
+std::string check_table(const CheckReport& report, int dimension,
+                        const std::optional<TimeUnit>& unit = {});
 
 /// Writes `check_table`; `-` is standard output. Throws FileError.
-void write_checks(const std::string& path, const CheckReport& report, int dimension);
+void write_checks(const std::string& path, const CheckReport& report, int dimension,
+                  const std::optional<TimeUnit>& unit = {});
 
 /// Throws NumericalError, naming mechanism, place and time, if a limit state is passed: a factor
 /// below 1.

@@ -141,8 +141,11 @@ class ColumnChecks {
     std::vector<double> base(place.position.data(), place.position.data() + Dim);
     const Vector<Dim> down = -column.depth * upward<Dim>(scene_);
     for (int d = 0; d < Dim; ++d) base[d] += down[d];
-    worst = CheckRow{mechanism,        where, clause,         state.time, found.effect,
-                     found.resistance, unit,  found.factor(), base};
+    CheckRow row{mechanism,        where, clause,         state.time, found.effect,
+                 found.resistance, unit,  found.factor(), base};
+    if (worst) row.first_below = worst->first_below;
+    row.note_factor(found.factor(), state.time);
+    worst = row;
   }
 
   const Mesh<Dim>& mesh_;

@@ -73,6 +73,7 @@ CheckRow threshold_check(const ResultsReader& results, const Mesh<Dim>& mesh, co
       if (!is_in(mesh, e, soil)) continue;
       const double found = drive.at(e);
       if (!(found > row.effect)) continue;
+      row.note_factor(row.resistance / found, results.times()[i]);
       row.effect = found;
       row.time = results.times()[i];
       const Vector<Dim> x = element_centroid(mesh, e);

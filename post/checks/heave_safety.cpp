@@ -92,6 +92,7 @@ void include(const SafetyState& state, int element, const std::vector<double>& p
   // Free water has no critical gradient: the value there is NaN.
   if (!(gradient > 0.0) || !(critical > 0.0)) return;
   const double safety = critical / gradient;
+  if (safety < 1.0 && !part.first_below) part.first_below = state.time;
   if (part.least && part.least->safety <= safety) return;
   part.least = LeastSafety{safety, gradient, critical, state.time, place};
 }
@@ -102,20 +103,36 @@ std::string number_cell(const char* format, double value, int width) {
   return padded(text, width);
 }
 
-std::string motion_text(const Table& history) {
+std::string motion_text(const Table& history, const TimeUnit& unit) {
   const auto now = [&](const char* name) {
     return number_cell("%.4g", history.column(name).back(), 0);
   };
-  return "at t = " + number_cell("%.6g", history.column("t").back(), 0) +
-         " s the largest settlement of the soil is " + now("settlement_max") +
+  return "at t = " + time_digits(history.column("t").back(), unit) + " " + unit.name +
+         " the largest settlement of the soil is " + now("settlement_max") +
          " m, its largest displacement " + now("displacement_max") + " m\n";
+}
+
+/// The cells behind the name of a part.
+std::string part_cells(const PartSafety& part, const TimeUnit& unit, int place_width) {
+  std::string text;
+  if (part.least) {
+    const LeastSafety& least = *part.least;
+    text = number_cell("%.4g", least.safety, 10) + number_cell("%.4g", least.gradient, 10) +
+           number_cell("%.4g", least.critical_gradient, 10) +
+           padded(time_digits(least.time, unit), 12) + padded(place_text(least.place), place_width);
+  } else {
+    text = padded("-", 10) + padded("-", 10) + padded("-", 10) + padded("-", 12) +
+           padded("water rises nowhere", place_width);
+  }
+  if (part.discharge) text += number_cell("%.10g", *part.discharge, 23);
+  return text;
 }
 
 template <int Dim>
 std::vector<PartSafety> safety_in(const ResultsReader& results, const Mesh<Dim>& mesh) {
   const std::vector<Boundary> boundaries = boundaries_of(results, mesh);
-  std::vector<PartSafety> parts{{"all soil", {}, {}}};
-  for (const Boundary& boundary : boundaries) parts.push_back({boundary.name, {}, {}});
+  std::vector<PartSafety> parts{PartSafety{.name = "all soil"}};
+  for (const Boundary& boundary : boundaries) parts.push_back({.name = boundary.name});
   if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
   for (std::size_t index = 0; index < results.times().size(); ++index) {
     const SafetyState state{results.times()[index], upward_gradient(results, index),
@@ -151,43 +168,35 @@ std::string place_text(const std::vector<double>& place) {
   return text + ")";
 }
 
-std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts) {
+std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts,
+                        const TextStyle& style) {
   std::size_t width = 0;
   for (const PartSafety& part : parts) width = std::max(width, part.name.size());
   const auto& times = results.times();
+  const TimeUnit& unit = style.time;
   const bool is_plane = results.dimension() == 2;
   const int place_width = is_plane ? 20 : 30;
   std::string text =
       results.folder() + ": " + results.status() + ", " + std::to_string(times.size()) +
-      " snapshots until t = " + number_text(times.back()) +
-      " s\nleast safety i_cr / i against heave, i: hydraulic gradient upwards, i_cr = (1 - n) "
+      " snapshots until t = " + number_text(times.back() / unit.seconds) + " " + unit.name +
+      "\nleast safety i_cr / i against heave, i: hydraulic gradient upwards, i_cr = (1 - n) "
       "(rho_s / rho_w - 1)\n" +
       std::string(width, ' ') + padded("safety", 10) + padded("i", 10) + padded("i_cr", 10) +
-      padded("t (s)", 12) + padded("at (m)", place_width) +
+      padded("t (" + unit.name + ")", 12) + padded("at (m)", place_width) +
       padded("discharge now (" + std::string(is_plane ? "m2/s" : "m3/s") + ")", 23) + "\n";
   for (const PartSafety& part : parts) {
-    text += part.name + std::string(width - part.name.size(), ' ');
-    if (part.least) {
-      const LeastSafety& least = *part.least;
-      text += number_cell("%.4g", least.safety, 10) + number_cell("%.4g", least.gradient, 10) +
-              number_cell("%.4g", least.critical_gradient, 10) +
-              number_cell("%.6g", least.time, 12) + padded(place_text(least.place), place_width);
-    } else {
-      text += padded("-", 10) + padded("-", 10) + padded("-", 10) + padded("-", 12) +
-              padded("water rises nowhere", place_width);
-    }
-    if (part.discharge) text += number_cell("%.10g", *part.discharge, 23);
-    text += "\n";
+    const std::string line = part.name + std::string(width - part.name.size(), ' ') +
+                             part_cells(part, unit, place_width);
+    text += (part.first_below ? alarm_line(line, style) : line) + "\n";
   }
-  const bool lifts = std::ranges::any_of(
-      parts, [](const PartSafety& part) { return part.least && part.least->safety < 1.0; });
   const bool moves = results.scene().scene.moves();
-  if (lifts) {
-    text += "a safety below 1 means that water lifts the soil there";
+  if (const auto& first = parts.front().first_below) {
+    text += "a safety below 1 means that water lifts the soil there, for the first time at t = " +
+            time_digits(*first, unit) + " " + unit.name;
     text +=
         moves ? "\n" : ": from then on results of a skeleton that stays in place mean nothing\n";
   }
-  if (moves) text += motion_text(results.history());
+  if (moves) text += motion_text(results.history(), unit);
   return text;
 }
 

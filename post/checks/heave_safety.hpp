@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "results/reader.hpp"
+#include "tables/table_output.hpp"
 
 namespace suffuse {
 
@@ -26,10 +27,12 @@ struct PartSafety {
   std::string name;
   /// Least safety; of a boundary over its faces through which water leaves, with the gradient in
   /// the element at the face. Nothing where water does not rise anywhere.
-  std::optional<LeastSafety> least;
+  std::optional<LeastSafety> least{};
   /// Liquid that leaves through a boundary minus what enters, at the last row of boundaries.csv,
   /// m3/s (per metre of thickness in 2D).
-  std::optional<double> discharge;
+  std::optional<double> discharge{};
+  /// Time of the first snapshot whose safety is below 1, s.
+  std::optional<double> first_below{};
 };
 
 /// All soil first, then the boundaries of the scene. Throws FileError.
@@ -39,7 +42,8 @@ std::vector<PartSafety> safety_of(const ResultsReader& results);
 std::string place_text(const std::vector<double>& place);
 
 /// The safeties as an aligned table, with an explanation.
-std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts);
+std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts,
+                        const TextStyle& style = {});
 
 /// Throws NumericalError, naming part, place and time, where a safety is below `least`.
 void check_safety(const std::vector<PartSafety>& parts, double least);

@@ -258,6 +258,7 @@ std::vector<CheckRow> backward_erosion_checks(const ResultsReader& results,
     if (!(difference > row.effect)) continue;
     row.effect = difference;
     row.time = results.times()[i];
+    row.note_factor(row.resistance / row.effect, row.time);
   }
   if (row.effect > 0.0) row.factor = row.resistance / row.effect;
   row.note = "L = " + short_text(layer.length) + " m, D = " + short_text(layer.thickness) + " m" +
@@ -285,6 +286,11 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
     refuse_setting(results, toe_key, "an aquifer without a cover", "a toe on the cover");
   }
   const LineSegment<2>& above = *std::prev(first);
+  CheckRow row{.mechanism = "blanket", .where = settings.cover, .clause = "EM 1110-2-1913, B"};
+  row.unit = "1";
+  row.resistance = critical_gradient(results, results.times().size() - 1)[above.element];
+  row.place = {toe.position[0], toe.position[1]};
+  const double share = toe_share(blanket);
   ToeHeads worst;
   for (std::size_t i = 0; i < results.times().size(); ++i) {
     const std::vector<double> head = any_field(results, i, "node", "head").values;
@@ -299,20 +305,14 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
     const double river = largest_head(section, head, settings.entry) - ground;
     if (!(river > worst.river)) continue;
     worst = {results.times()[i], river, at(above.element, above.base_weights) - ground};
+    row.note_factor(row.resistance / (share * river / cover_at_toe), worst.time);
   }
-
-  CheckRow row{.mechanism = "blanket", .where = settings.cover, .clause = "EM 1110-2-1913, B"};
-  const double excess = toe_share(blanket) * worst.river;
-  const std::size_t last = results.times().size() - 1;
   row.time = worst.time;
-  row.effect = excess / cover_at_toe;
-  row.resistance = critical_gradient(results, last)[above.element];
-  row.unit = "1";
-  row.place = {toe.position[0], toe.position[1]};
+  row.effect = share * worst.river / cover_at_toe;
   if (row.effect > 0.0) row.factor = row.resistance / row.effect;
-  row.note = "head below the cover at the toe: " + short_text(excess) + " m by blanket theory, " +
-             short_text(worst.computed) + " m computed, of " + short_text(worst.river) +
-             " m of the river" + sentences(broken_assumptions(blanket));
+  row.note = "head below the cover at the toe: " + short_text(share * worst.river) +
+             " m by blanket theory, " + short_text(worst.computed) + " m computed, of " +
+             short_text(worst.river) + " m of the river" + sentences(broken_assumptions(blanket));
   return {row};
 }
 

@@ -1,5 +1,8 @@
 /// The subcommands `ledger`, `history`, `boundaries` and `check`.
 
+#include <unistd.h>
+
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 
@@ -72,11 +75,18 @@ void boundaries(const TableOptions& o) {
                with_units(results.boundaries(), results.dimension(), unit));
 }
 
+/// Whether standard output is a terminal that shows colours (no-color.org).
+bool shows_colors() {
+  const char* refused = std::getenv("NO_COLOR");
+  return isatty(STDOUT_FILENO) == 1 && (refused == nullptr || *refused == '\0');
+}
+
 struct CheckOptions {
   std::string results;
   std::optional<double> least;
   std::vector<std::string> changes;
   std::string csv;
+  std::string time_unit;
   bool fail = false;
 };
 
@@ -90,23 +100,30 @@ void declare_check(CLI::App& command, CheckOptions& o) {
       .add_option("--set", o.changes, "change a key of the table [check] of the scene, repeatable")
       ->type_name("check.KEY=VALUE");
   command.add_option("--csv", o.csv, "write the table of all mechanisms here")->type_name("FILE");
+  command
+      .add_option("--time-unit", o.time_unit,
+                  "unit of times; given, it is in the heads of the CSV table too; without it s")
+      ->type_name(time_unit_words());
   command.add_flag("--fail", o.fail,
                    "fail with exit code 3 where the factor of a mechanism is below 1");
 }
 
 void check(const CheckOptions& o) {
+  std::optional<TimeUnit> unit;
+  if (!o.time_unit.empty()) unit = parse_time_unit(o.time_unit, "suffuse-post check");
   const ResultsReader results(o.results);
   const CheckReport report = check_run(results, check_settings(results, o.changes));
   const auto parts = safety_of(results);
   if (o.csv != "-") {
-    std::cout << safety_text(results, parts) << '\n' << check_text(report);
+    const TextStyle style{unit.value_or(TimeUnit{}), shows_colors()};
+    std::cout << safety_text(results, parts, style) << '\n' << check_text(report, style);
     if (const std::string known = discharge_text(results); !known.empty()) {
       std::cout << known << '\n';
     }
   }
   if (!o.csv.empty()) {
     refuse_inside(results, "--csv", o.csv);
-    write_checks(o.csv, report, results.dimension());
+    write_checks(o.csv, report, results.dimension(), unit);
   }
   if (o.least) check_safety(parts, *o.least);
   require_all_checks(report);

@@ -20,9 +20,8 @@ html::Cell optional_cell(double value) {
   return std::isnan(value) ? html::cell("-") : html::cell(value);
 }
 
-std::string state_of(const CheckRow& row) {
-  if (!row.factor) return "-";
-  return row.fails() ? "EXCEEDED" : "kept";
+html::Cell time_cell(double seconds, const TimeUnit& unit) {
+  return std::isnan(seconds) ? html::cell("-") : html::cell(seconds, time_text(seconds, unit));
 }
 
 std::string mechanisms_html(const RunNumbers& numbers) {
@@ -33,22 +32,24 @@ std::string mechanisms_html(const RunNumbers& numbers) {
   const TimeUnit unit = fitting_time_unit(numbers.end);
   html::Table table{"mechanisms",
                     {"mechanism", "where", "limit", "factor [-]", "effect", "resistance", "unit",
-                     "at t", "at [m]", "by"},
+                     "at t", "first below 1", "at [m]", "by"},
                     {}};
   std::vector<std::string> notes;
-  for (const CheckRow& row : numbers.checks->rows) {
+  for (const CheckRow& row : exceeded_first(numbers.checks->rows)) {
+    if (row.fails()) table.exceeded.insert(table.rows.size());
     table.rows.push_back(
-        {html::cell(row.mechanism), html::cell(row.where), html::cell(state_of(row)),
+        {html::cell(row.mechanism), html::cell(row.where), html::cell(limit_word(row)),
          row.factor ? html::cell(*row.factor) : html::cell("-"), optional_cell(row.effect),
          optional_cell(row.resistance), html::cell(row.unit.empty() ? "-" : row.unit),
-         std::isnan(row.time) ? html::cell("-") : html::cell(row.time, time_text(row.time, unit)),
+         time_cell(row.time, unit), time_cell(row.first_below, unit),
          html::cell(row.place.empty() ? "-" : place_text(row.place)), html::cell(row.clause)});
     if (!row.note.empty())
       notes.push_back(row.mechanism + ", " + row.where + ": " + row.note + ".");
   }
   return html::element("p",
                        "Factor: resistance over effect, with the partial factors of the clause. A "
-                       "limit is exceeded below 1. Each row is the worst of all snapshots.") +
+                       "limit is exceeded below 1. Each row is the worst of all snapshots, "
+                       "and has the time of the first whose factor is below 1.") +
          table.html() + (notes.empty() ? "" : html::list(notes));
 }
 

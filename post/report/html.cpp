@@ -104,9 +104,9 @@ std::string Table::html() const {
     result += "<th scope=\"col\"><button type=\"button\">" + escaped(head) + "</button></th>";
   }
   result += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : rows) {
-    result += "<tr>";
-    for (const Cell& cell : row) result += cell_html(cell);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    result += exceeded.contains(r) ? "<tr class=\"exceeded\">" : "<tr>";
+    for (const Cell& cell : rows[r]) result += cell_html(cell);
     result += "</tr>\n";
   }
   return result + "</tbody></table></div>\n";

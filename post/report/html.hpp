@@ -3,6 +3,7 @@
 /// Pieces of an HTML page.
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct Table {
   std::string name;  ///< name of the HTML element, by which programs find it
   std::vector<std::string> heads;
   std::vector<std::vector<Cell>> rows;
+  std::set<std::size_t> exceeded{};  ///< numbers of the rows whose limit is exceeded: bold and red
 
   [[nodiscard]] std::string html() const;
 };

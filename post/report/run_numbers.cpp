@@ -45,8 +45,10 @@ std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
   const auto& anywhere = numbers.safety.front().least;
   if (anywhere && anywhere->safety < 1.0) {
     text += "In all soil it is " + place(*anywhere) +
-            ": below 1 water lifts soil that nothing holds down, and from then on results of a "
-            "skeleton that stays in place mean nothing. ";
+            ": below 1 water lifts soil that nothing holds down. It is below 1 for the first time "
+            "at t = " +
+            time_text(numbers.safety.front().first_below.value_or(anywhere->time), unit) +
+            ": from then on results of a skeleton that stays in place mean nothing. ";
   }
   return text;
 }

@@ -120,11 +120,13 @@ std::string safety_html(const ResultsReader& run, const RunNumbers& numbers) {
   if (numbers.safety.empty()) {
     return html::element("p", "These results have no hydraulic gradient.");
   }
-  html::Table table{"safety",
-                    {"part", "least safety [-]", "gradient i [-]", "critical gradient [-]", "t [s]",
-                     "at [m]", with_unit("discharge", "m3/s", run.dimension())},
-                    {}};
+  html::Table table{
+      "safety",
+      {"part", "least safety [-]", "gradient i [-]", "critical gradient [-]", "t [s]",
+       "first below 1 [s]", "at [m]", with_unit("discharge", "m3/s", run.dimension())},
+      {}};
   for (const PartSafety& part : numbers.safety) {
+    if (part.first_below) table.exceeded.insert(table.rows.size());
     auto& row = table.rows.emplace_back(std::vector{html::cell(part.name)});
     if (part.least) {
       const LeastSafety& least = *part.least;
@@ -132,9 +134,10 @@ std::string safety_html(const ResultsReader& run, const RunNumbers& numbers) {
            {least.safety, least.gradient, least.critical_gradient, least.time}) {
         row.push_back(html::cell(value));
       }
+      row.push_back(part.first_below ? html::cell(*part.first_below) : html::cell("-"));
       row.push_back(html::cell(place_text(least.place)));
     } else {
-      row.insert(row.end(), 4, html::cell("-"));
+      row.insert(row.end(), 5, html::cell("-"));
       row.push_back(html::cell("water rises nowhere"));
     }
     row.push_back(part.discharge ? html::cell(*part.discharge) : html::cell("-"));

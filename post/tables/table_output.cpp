@@ -73,6 +73,10 @@ std::string shown_unit(const std::string& unit, int dimension) {
   return dimension == 2 && is_extensive(unit) ? unit + "/m" : unit;
 }
 
+std::string alarm_line(const std::string& line, const TextStyle& style) {
+  return style.colors ? "\033[1;31m" + line + "\033[0m" : line;
+}
+
 std::string padded(const std::string& text, int width) {
   const auto size = static_cast<int>(text.size());
   const std::string gap(std::max(0, std::abs(width) - size), ' ');

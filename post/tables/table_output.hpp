@@ -24,6 +24,14 @@ std::string closest_column(const std::string& name, const std::vector<std::strin
 /// "kg/m" from "kg" in 2D, "-" from "1".
 std::string shown_unit(const std::string& unit, int dimension);
 
+/// How a text with times and limits is written.
+struct TextStyle {
+  TimeUnit time{};      ///< unit of its times
+  bool colors = false;  ///< for a terminal: exceeded limits are bold and red
+};
+/// A line about an exceeded limit.
+std::string alarm_line(const std::string& line, const TextStyle& style);
+
 /// Text padded to `width` letters: aligned to the right, or to the left for a negative width.
 std::string padded(const std::string& text, int width);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "files/number_text.hpp"
 
@@ -23,6 +24,12 @@ TimeUnit fitting_time_unit(double end) {
 
 std::string time_text(double seconds, const TimeUnit& unit) {
   return short_text(seconds / unit.seconds) + " " + unit.name;
+}
+
+std::string time_digits(double seconds, const TimeUnit& unit) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", seconds / unit.seconds);
+  return text;
 }
 
 std::string time_words(double seconds, double end, double spacing) {

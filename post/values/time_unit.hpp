@@ -19,6 +19,8 @@ const std::vector<TimeUnit>& time_units();
 TimeUnit fitting_time_unit(double end);
 /// "6 d"
 std::string time_text(double seconds, const TimeUnit& unit);
+/// A time in the unit, in six digits: "172800".
+std::string time_digits(double seconds, const TimeUnit& unit);
 /// A time of a run until `end` (s) in words, "5 h 33 min": to within a hundredth of itself, and so
 /// that times `spacing` (s) apart differ.
 std::string time_words(double seconds, double end, double spacing);

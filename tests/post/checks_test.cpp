@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "checks/checks.hpp"
+#include "checks/heave_safety.hpp"
 #include "checks/sellmeijer.hpp"
 #include "common/errors.hpp"
 #include "post/run_programs.hpp"
@@ -381,6 +382,88 @@ TEST(Checks, BackwardErosionMeasuresTheDrawing) {
   EXPECT_NEAR(row.effect, 2.0, 1e-9);
 }
 
+/// The column under an excess head that rises by 1 m each second to 4 m, and falls again.
+ResultsReader flood_wave(const ScratchFolder& scratch) {
+  std::string scene =
+      top("geometry = { shape = \"column\", width = 0.4, height = 3.2 }\nmesh.size = 0.2\n") +
+      soil("specimen", 1e-4,
+           "erosion = { law = \"first-order\", rate = 1e-9, drive = \"gradient\", threshold = "
+           "0.4 }\n") +
+      "[[boundary]]\non = \"bottom\"\nhead = [[0.0, 3.2], [4.0, 7.2], [8.0, 3.2]]\n"
+      "concentration = 0.0\n[[boundary]]\non = \"top\"\nhead = 3.2\nconcentration = 0.0\n";
+  scene.replace(scene.find("time.end = 1.0"), 14, "time.end = 8.0");
+  return run_programs(scratch, "wave", scene);
+}
+
+/// The excess heads with a factor of 1 are 1.04 m (2.9a), 1.28 m (the threshold), 2.11 m (2.9b) and
+/// 3.16 m (i_cr); the largest, 4 m, comes after 4 s.
+TEST(Checks, SayWhenAFactorWasBelowOneForTheFirstTime) {
+  const ScratchFolder scratch;
+  const ResultsReader results = flood_wave(scratch);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  for (const auto& [mechanism, first] : std::vector<std::pair<std::string, double>>{
+           {"hyd-stresses", 2.0}, {"erosion", 2.0}, {"hyd-forces", 3.0}, {"heave", 4.0}}) {
+    const CheckRow& row = row_of(report, mechanism);
+    EXPECT_NEAR(row.first_below, first, 1e-9) << mechanism;
+    EXPECT_NEAR(row.time, 4.0, 1e-9) << mechanism;
+  }
+  EXPECT_NE(check_text(report).find(
+                "\nhyd-forces, top: the factor is below 1 for the first time at t = 3 s\n"),
+            std::string::npos);
+  EXPECT_NE(safety_text(results, safety_of(results))
+                .find("lifts the soil there, for the first time at t = 4 s: from then on results"),
+            std::string::npos);
+  const std::string table = check_table(report, 2, TimeUnit{"min", 60.0});
+  EXPECT_TRUE(table.starts_with(
+      "mechanism,where,clause,t [min],effect,resistance,unit,factor,x,y,note,t_below_1 [min]\n"));
+  EXPECT_NE(table.find(",0.05\n"), std::string::npos) << table;
+}
+
+/// The command, with what it prints.
+std::string said_by_check(const ScratchFolder& scratch, const std::string& arguments) {
+  const std::string command = test::program_folder() + "/suffuse-post check " + arguments + " > " +
+                              scratch / "said" + " 2>&1";
+  EXPECT_NE(std::system(command.c_str()), -1);
+  return testing::file_text(scratch / "said");
+}
+
+TEST(Checks, TimesHaveTheUnitOfChoice) {
+  const ScratchFolder scratch;
+  const std::string folder = flood_wave(scratch).folder();
+  const std::string text = said_by_check(scratch, folder + " --time-unit min");
+  EXPECT_NE(text.find("until t = 0.13333333333333333 min\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  t (min)  "), std::string::npos) << text;
+  EXPECT_EQ(text.find("\033"), std::string::npos) << "a file is no terminal";
+  EXPECT_EQ(said_by_check(scratch, folder + " --csv -").find("mechanism,where,clause,t,effect,"),
+            0U);
+  EXPECT_EQ(said_by_check(scratch, folder + " --csv - --time-unit h")
+                .find("mechanism,where,clause,t [h],effect,"),
+            0U);
+  EXPECT_EQ(said_by_check(scratch, folder + " --time-unit hours"),
+            "suffuse-post check: --time-unit: got \"hours\"; expected \"s\", \"min\", \"h\", "
+            "\"d\" or \"a\"\n");
+}
+
+/// Under 1.5 m of head the column passes 2.9a and the threshold of erosion alone.
+TEST(Checks, ExceededLimitsComeFirstAndAreBold) {
+  const ScratchFolder scratch;
+  const ResultsReader results = rising_water(scratch, 1.5);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  const std::string plain = check_text(report);
+  EXPECT_LT(plain.find("\nerosion "), plain.find("\nhyd-stresses "));
+  EXPECT_LT(plain.find("\nhyd-stresses "), plain.find("\nheave "));
+  EXPECT_LT(plain.rfind("EXCEEDED"), plain.find(" kept "));
+  const std::string colored = check_text(report, {.colors = true});
+  EXPECT_NE(colored.find("\n\033[1;31mhyd-stresses "), std::string::npos);
+  EXPECT_NE(colored.find("\nheave "), std::string::npos);
+  const std::string page = report_html({results});
+  EXPECT_NE(page.find("<tr class=\"exceeded\"><td>erosion</td>"), std::string::npos);
+  EXPECT_NE(page.find("<tr class=\"exceeded\"><td>hyd-stresses</td>"), std::string::npos);
+  EXPECT_NE(page.find("<tr><td>heave</td>"), std::string::npos);
+  EXPECT_NE(page.find(".exceeded td { color: var(--alarm); font-weight: 700; }"),
+            std::string::npos);
+}
+
 /// Under 2.5 m of head the column heaves, which the first page of the report says.
 TEST(Checks, TheReportBeginsWithThem) {
   const ScratchFolder scratch;
@@ -396,8 +479,8 @@ TEST(Checks, TheTableHasARowForEachAndTheTextSaysWhatIsMissing) {
   const ResultsReader results = layers(scratch, 3.1, 2.0);
   const CheckReport report = check_run(results, results.scene().scene.check);
   const std::string table = check_table(report, 2);
-  EXPECT_TRUE(
-      table.starts_with("mechanism,where,clause,t,effect,resistance,unit,factor,x,y,note\n"));
+  EXPECT_TRUE(table.starts_with(
+      "mechanism,where,clause,t,effect,resistance,unit,factor,x,y,note,t_below_1\n"));
   EXPECT_EQ(std::ranges::count(table, '\n'), static_cast<long>(report.rows.size()) + 1);
   const std::string text = check_text(report);
   EXPECT_NE(text.find("suffusion (no soil erodes)"), std::string::npos) << text;

@@ -41,7 +41,7 @@ PageRows table_of(const std::string& page, const std::string& name) {
   const auto body = page.find("<tbody>", start);
   const std::string table = page.substr(body, page.find("</tbody>", start) - body);
   PageRows rows;
-  for (const auto& row : matches(table, "<tr>(.*)</tr>")) {
+  for (const auto& row : matches(table, "<tr[^>]*>(.*)</tr>")) {
     auto& cells = rows.emplace_back();
     const std::string text = row[1];
     for (const auto& cell : matches(
