@@ -5,6 +5,7 @@
 
 #include "files/number_text.hpp"
 #include "values/derived_fields.hpp"
+#include "values/dry_mass.hpp"
 
 namespace suffuse {
 namespace {
@@ -107,30 +108,16 @@ std::vector<CheckRow> threshold_checks(const ResultsReader& results) {
 }
 
 std::vector<CheckRow> loss_checks(const ResultsReader& results) {
-  const Table table = results.region_ledgers();
-  const auto& region = table.column("region");
-  const auto& solid = table.column("solid");
   std::vector<CheckRow> rows;
-  for (std::size_t r = 0; r < results.regions().size(); ++r) {
-    const Soil* soil = results.scene().scene.find_soil(results.regions()[r]);
-    if (soil == nullptr || !soil->exchanges()) continue;
-    double first = unset;
-    double last = unset;
-    double time = unset;
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-      if (region[i] != static_cast<double>(r)) continue;
-      if (std::isnan(first)) first = solid[i];
-      last = solid[i];
-      time = table.column("t")[i];
-    }
-    if (!(first > 0.0)) continue;
-    const double lost = 100.0 * (first - last) / first;
-    CheckRow row{.mechanism = "loss", .where = soil->region, .clause = "Douglas and others (2019)"};
-    row.time = time;
+  for (const DryMass& mass : dry_masses(results)) {
+    const double lost = 100.0 * (mass.start - mass.last) / mass.start;
+    CheckRow row{.mechanism = "loss", .where = mass.region, .clause = "Douglas and others (2019)"};
+    row.time = mass.time;
     row.effect = lost;
     row.unit = "%";
-    row.note = lost < 0.0 ? "the soil has gained " + short_text(-lost) + " % of its dry mass"
-                          : erosion_class(lost) + ": " + short_text(lost) + " % of the dry mass";
+    row.note = lost < 0.0 ? "the soil has gained " + short_text(-lost) + " %"
+                          : erosion_class(lost) + ": " + short_text(lost) + " %";
+    row.note += " of its dry mass at the start";
     rows.push_back(row);
   }
   return rows;

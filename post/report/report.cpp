@@ -27,8 +27,9 @@ std::string runs_table(const std::vector<std::string>& labels,
                        const std::vector<RunNumbers>& numbers) {
   const std::string mass = shown_unit("kg", runs.front().dimension());
   html::Table table{"runs",
-                    {"run", "status", "until t [s]", "fines lost [" + mass + "]", "fines lost [%]",
-                     "least safety [-]", "at [m]", "at t [s]", "largest residual [-]", "warnings"},
+                    {"run", "status", "until t [s]", "fines lost [" + mass + "]",
+                     "fines lost [% of the dry mass]", "least safety [-]", "at [m]", "at t [s]",
+                     "largest residual [-]", "warnings"},
                     {}};
   const auto number = [](const std::optional<double>& value) {
     return value ? html::cell(*value) : html::cell("-");

@@ -15,6 +15,7 @@
 #include "files/number_text.hpp"
 #include "report/html.hpp"
 #include "values/derived_fields.hpp"
+#include "values/dry_mass.hpp"
 #include "values/fields.hpp"
 #include "values/run_names.hpp"
 
@@ -35,6 +36,9 @@ std::string image(const std::string& path, const std::string& what,
          html::data_address(path) + "\">\n";
 }
 
+/// The column that is drawn as a share of the dry mass.
+const std::string drawn_as_share = "fines_out";
+
 /// A column of a table, and what its chart is called.
 struct CurveColumn {
   std::string table;
@@ -45,7 +49,9 @@ struct CurveColumn {
 const std::vector<CurveColumn>& curve_columns() {
   static const std::vector<CurveColumn> columns{
       {"history", "porosity_mean", "Mean porosity of the soil that erodes, or of all soil"},
-      {"history", "fines_out_percent", "Fines that left the model, in % of those at the start"},
+      {"history", drawn_as_share,
+       "Fines that left the model, in % of the dry mass at the start of the soils that exchange "
+       "fines"},
       {"boundaries", "discharge", "Discharge through the boundaries, out minus in"},
       {"history", "turbidity_out", "Turbidity of the liquid that leaves"},
       {"history", "conductivity_ratio", "Conductivity of the soil over that at the start"}};
@@ -63,6 +69,19 @@ bool has_curve(const ResultsReader& run, const CurveColumn& column) {
          std::ranges::all_of(parts, [&](const NamedTable& part) { return is_curve(part.table); });
 }
 
+/// Divides the masses of a chart, with a curve for each run, by the dry masses at the start. False
+/// where a run has none.
+bool make_shares(const std::vector<ResultsReader>& runs, Chart& chart) {
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const double mass = dry_mass_at_start(runs[r]);
+    if (!(mass > 0.0)) return false;
+    for (double& y : chart.curves[r].y) y *= 100.0 / mass;
+  }
+  chart.title = "Fines that left the model";
+  chart.y_label = "share of the dry mass at the start (%)";
+  return true;
+}
+
 std::string curve_html(const std::vector<ResultsReader>& runs, const CurveColumn& column,
                        const ScratchFolder& folder) {
   for (const ResultsReader& run : runs) {
@@ -70,8 +89,10 @@ std::string curve_html(const std::vector<ResultsReader>& runs, const CurveColumn
   }
   FigureOptions options;
   options.columns = {column.table + "." + column.column};
+  std::vector<Chart> charts = make_figure("curves", runs, options);
+  if (column.column == drawn_as_share && !make_shares(runs, charts.front())) return "";
   const std::string path = (folder.path() / (column.column + ".png")).string();
-  draw_figure("curves", runs, path, options);
+  draw_charts(charts, path);
   return "<figure>" + html::element("figcaption", column.title) +
          card(image(path, column.title + " against time")) + "</figure>\n";
 }

@@ -5,6 +5,7 @@
 #include "files/number_text.hpp"
 #include "report/report_pictures.hpp"
 #include "values/derived_fields.hpp"
+#include "values/dry_mass.hpp"
 #include "values/scene_words.hpp"
 
 namespace suffuse {
@@ -27,7 +28,8 @@ std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
   if (run.dimension() == 2) text += " per metre of thickness";
   text += " left the model";
   if (numbers.fines_percent) {
-    text += ", " + short_text(*numbers.fines_percent) + " % of those at the start";
+    text += ", " + short_text(*numbers.fines_percent) +
+            " % of the dry mass at the start of the soils that exchange fines";
   }
   return text + ". ";
 }
@@ -71,7 +73,9 @@ RunNumbers run_numbers(const ResultsReader& run) {
   numbers.rows = history.rows();
   numbers.end = last_of(history, "t").value_or(0.0);
   numbers.fines_out = last_of(history, "fines_out");
-  numbers.fines_percent = last_of(history, "fines_out_percent");
+  if (const double mass = dry_mass_at_start(run); numbers.fines_out && mass > 0.0) {
+    numbers.fines_percent = 100.0 * *numbers.fines_out / mass;
+  }
   if (run.ledger().rows() > 0) numbers.balances = balances(run);
   for (const Balance& balance : numbers.balances) {
     const bool is_worse =

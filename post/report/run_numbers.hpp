@@ -21,7 +21,8 @@ struct RunNumbers {
   double end = 0.0;                     ///< last time in the tables, s
   std::size_t rows = 0;                 ///< number of rows in the tables
   std::optional<double> fines_out;      ///< kg (per metre of thickness in 2D)
-  std::optional<double> fines_percent;  ///< `fines_out` in per cent of the fines at the start
+  /// `fines_out` in per cent of the dry mass at the start of the soils that exchange fines.
+  std::optional<double> fines_percent;
   std::vector<Balance> balances;
   std::optional<Balance> worst;    ///< the balance with the largest residual
   std::vector<PartSafety> safety;  ///< all soil first

@@ -1,0 +1,64 @@
+/// Losses of the checks and of the report are shares of one dry mass.
+
+#include <gtest/gtest.h>
+
+#include "checks/erosion_checks.hpp"
+#include "post/run_programs.hpp"
+#include "report/report.hpp"
+#include "report/run_numbers.hpp"
+#include "values/dry_mass.hpp"
+
+namespace suffuse {
+namespace losses_test {
+
+using testing::run_programs;
+using testing::ScratchFolder;
+
+/// Water rises through sand that erodes, and through clay above it, which has fines too but no law.
+ResultsReader two_soils(const ScratchFolder& scratch) {
+  return run_programs(
+      scratch, "soils",
+      "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
+      "geometry.file = \"soils.geo\"\nmesh.size = 0.25\n"
+      "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
+      "initial.flow = \"steady\"\ntime.end = 10.0\noutput.every = 5.0\n"
+      "[soil.sand]\nporosity = 0.35\nskeleton_fraction = 0.55\ngrain_density = 2650.0\n"
+      "conductivity = 1e-1\nerosion = { law = \"constant\", rate = 1e-3 }\n"
+      "[soil.clay]\nporosity = 0.4\nskeleton_fraction = 0.4\ngrain_density = 2650.0\n"
+      "conductivity = 1e-1\n"
+      "[[boundary]]\non = \"bottom\"\nhead = 4.0\nconcentration = 0.0\n"
+      "[[boundary]]\non = \"top\"\nhead = 2.0\nconcentration = 0.0\n",
+      "Point(1) = {0, 0, 0}; Point(2) = {0.5, 0, 0}; Point(3) = {0.5, 1, 0};\n"
+      "Point(4) = {0, 1, 0}; Point(5) = {0.5, 2, 0}; Point(6) = {0, 2, 0};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+      "Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 4};\n"
+      "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+      "Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(2) = {2};\n"
+      "Physical Surface(\"sand\") = {1}; Physical Surface(\"clay\") = {2};\n"
+      "Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {6};\n");
+}
+
+/// What has eroded has left, or is in the liquid.
+TEST(Losses, OfReportAndCheckAreSharesOfTheDryMassOfSoilsThatExchangeFines) {
+  const ScratchFolder scratch;
+  const ResultsReader results = two_soils(scratch);
+  const double mass = dry_mass_at_start(results);
+  EXPECT_NEAR(mass, 0.65 * 2650.0 * 0.5, 1e-9);
+  const RunNumbers numbers = run_numbers(results);
+  ASSERT_TRUE(numbers.fines_percent.has_value());
+  EXPECT_NEAR(*numbers.fines_percent, 100.0 * *numbers.fines_out / mass, 1e-12);
+  EXPECT_GT(*numbers.fines_out, 0.0);
+  const std::vector<CheckRow> rows = loss_checks(results);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_NEAR(rows[0].effect,
+              *numbers.fines_percent + 100.0 * results.ledger().column("fines").back() / mass,
+              1e-9);
+  EXPECT_TRUE(rows[0].note.ends_with(" % of its dry mass at the start")) << rows[0].note;
+  const std::string basis = " % of the dry mass at the start of the soils that exchange fines";
+  EXPECT_NE(summary_text(results, numbers).find(basis), std::string::npos);
+  EXPECT_NE(report_html({results}).find("<figcaption>Fines that left the model, in" + basis),
+            std::string::npos);
+}
+
+}  // namespace losses_test
+}  // namespace suffuse
