@@ -6,7 +6,9 @@
 #include "drawing/color_map.hpp"
 #include "drawing/ticks.hpp"
 #include "figures/measured.hpp"
+#include "files/number_text.hpp"
 #include "tables/table_output.hpp"
+#include "values/name_words.hpp"
 #include "values/refusal.hpp"
 #include "values/run_names.hpp"
 #include "values/sample.hpp"
@@ -40,6 +42,16 @@ SampleRequest request_of(const ResultsReader& run, const FigureOptions& options)
   request.fields = parse_field_names(options.fields);
   request.change = options.change;
   return request;
+}
+
+/// "(0.5, 0) to (0.5, 1) m"
+std::string ends_text(const SampleLine& line) {
+  const auto place = [](const Position& x) {
+    std::string text;
+    for (int d = 0; d < x.size(); ++d) text += (d == 0 ? "(" : ", ") + short_text(x[d]);
+    return text + ")";
+  };
+  return place(line.from) + " to " + place(line.to) + " m";
 }
 
 /// Labels of the curves of a run by their times.
@@ -103,11 +115,11 @@ std::vector<Chart> profile_charts(const std::vector<ResultsReader>& runs,
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Table table = sample(runs[r], requests[r], names);
     for (std::size_t k = charts.size() + first_field(table); k < table.names.size(); ++k) {
-      const std::string what = options.change ? "change of " : "";
+      const std::string what = (options.change ? "change of " : "") + field_words(table.names[k]);
       columns.push_back(table.names[k]);
-      charts.push_back({what + table.names[k] + " along " + options.line + " m",
+      charts.push_back({capitalized(what) + " from " + ends_text(parse_line(options.line)),
                         "distance along the line (m)",
-                        what + table.names[k] + " (" + table.units[k] + ")",
+                        what + " (" + table.units[k] + ")",
                         {}});
     }
     const std::string label = runs.size() > 1 ? labels[r] + ", " : "";

@@ -6,6 +6,7 @@
 
 #include "scene/scene_schema.hpp"
 #include "tables/table_output.hpp"
+#include "values/name_words.hpp"
 
 namespace suffuse {
 namespace {
@@ -69,7 +70,7 @@ std::string axis_text(const std::string& name, const Scene* scene) {
   const std::string unit_of_column = own == run_table_units().end()
                                          ? column_unit(name, dimension)
                                          : shown_unit(own->second, dimension);
-  if (!unit_of_column.empty()) return name + " (" + unit_of_column + ")";
+  if (!unit_of_column.empty()) return column_words(name) + " (" + unit_of_column + ")";
   for (const SceneKey& key : scene_keys()) {
     if (!fits(name, key.pattern)) continue;
     const auto steps = steps_of(name);

@@ -10,6 +10,7 @@
 #include "figures/run_curves.hpp"
 #include "files/number_text.hpp"
 #include "tables/table_output.hpp"
+#include "values/name_words.hpp"
 #include "values/refusal.hpp"
 
 namespace suffuse {
@@ -121,7 +122,7 @@ std::vector<NamedTable> wanted(std::vector<NamedTable> parts, const ColumnName& 
 
 std::string label_of(const std::string& column, int dimension) {
   const std::string unit = column_unit(column, dimension);
-  return column + (unit.empty() ? "" : " (" + unit + ")");
+  return column_words(column) + (unit.empty() ? "" : " (" + unit + ")");
 }
 
 /// The run, if there are several, and the part of the table.
@@ -173,7 +174,7 @@ class LabelStyles {
 Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::string>& labels,
                const ColumnName& name, const std::string& x, LabelStyles& styles) {
   const int dimension = runs.front().dimension();
-  Chart chart{name.column + (name.part.empty() ? "" : " of " + name.part),
+  Chart chart{capitalized(column_words(name.column)) + (name.part.empty() ? "" : ": " + name.part),
               x == "t" ? seconds_label : label_of(x, dimension),
               label_of(name.column, dimension),
               {}};

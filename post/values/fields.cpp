@@ -1,7 +1,6 @@
 #include "values/fields.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -9,6 +8,7 @@
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
 #include "values/derived_fields.hpp"
+#include "values/name_words.hpp"
 #include "values/time_unit.hpp"
 
 namespace suffuse {
@@ -59,14 +59,6 @@ std::string symbol_of(const std::string& name) {
       {"saturation", "S"},          {"hydraulic_gradient", "i"}, {"safety", "i_cr / i"}};
   const auto found = symbols.find(name);
   return found == symbols.end() ? "" : " " + found->second;
-}
-
-/// The name of a field in words.
-std::string words_of(const std::string& name) {
-  if (name == "darcy_flux") return "Darcy flux";
-  std::string words = name;
-  std::ranges::replace(words, '_', ' ');
-  return words;
 }
 
 }  // namespace
@@ -133,15 +125,13 @@ ScalarField read_scalar(const ResultsReader& results, std::size_t index, const F
 }
 
 std::string field_title(const FieldPlace& place) {
-  std::string words = words_of(place.name);
-  if (place.change) return "Change of " + words + " since the start";
-  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
-  return words;
+  const std::string words = field_words(place.name);
+  return place.change ? "Change of " + words + " since the start" : capitalized(words);
 }
 
 std::string field_label(const FieldPlace& place, const ScalarField& field) {
   return std::string(place.change ? "change of " : "") + (field.is_vector ? "magnitude of " : "") +
-         words_of(place.name) + symbol_of(place.name) + " (" +
+         field_words(place.name) + symbol_of(place.name) + " (" +
          (field.unit == "1" || field.unit.empty() ? "-" : field.unit) + ")";
 }
 

@@ -64,7 +64,7 @@ TEST(SweepFigures, RunsThatShareAKeyAreOneGroup) {
   EXPECT_EQ(chart.curves[1].label, "22 runs");
   EXPECT_EQ(chart.curves[2].y, (std::vector{11.0, 12.0}));
   EXPECT_EQ(chart.x_label, rate);
-  EXPECT_EQ(chart.y_label, "fines_lost (kg/m)");
+  EXPECT_EQ(chart.y_label, "fines lost (kg/m)");
   EXPECT_FALSE(chart.logarithmic_x);
 }
 
@@ -115,7 +115,7 @@ TEST(SweepFigures, DistributionOfEvenValues) {
   EXPECT_EQ(
       chart.table,
       (ChartTable{
-          {"share of runs", "fines_lost (kg/m)"}, {"10 %", "2"}, {"50 %", "6"}, {"90 %", "10"}}));
+          {"share of runs", "fines lost (kg/m)"}, {"10 %", "2"}, {"50 %", "6"}, {"90 %", "10"}}));
 }
 
 /// Three runs of constant laws, so that eroded masses are linear in time; the last two end as the
@@ -145,7 +145,7 @@ TEST(SweepFigures, BandInTimeIsThatOfTheRows) {
     EXPECT_NEAR(band.y[i], 0.3 + 2.8 * rise, 1e-12);
   }
   EXPECT_EQ(chart.x_label, "time (s)");
-  EXPECT_EQ(chart.y_label, "porosity_mean (-)");
+  EXPECT_EQ(chart.y_label, "mean porosity (-)");
 }
 
 TEST(SweepFigures, BandsAreFilledUnderTheirCurves) {
@@ -173,7 +173,7 @@ TEST(SweepFigures, BandsAreFilledUnderTheirCurves) {
   EXPECT_GT(filled, 40000);
   EXPECT_LT(filled, 140000);
   const std::string svg = file_text(scratch / "band.svg");
-  for (const auto* text : {"10 to 90 %", "3 runs", "median", "porosity_mean (-)"}) {
+  for (const auto* text : {"10 to 90 %", "3 runs", "median", "mean porosity (-)"}) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   }
 }
@@ -224,7 +224,7 @@ TEST(AxisText, KeysHaveTheUnitsOfTheScene) {
   EXPECT_EQ(axis_text("soil.\"a.b\".porosity"), "soil.\"a.b\".porosity (-)");
   EXPECT_EQ(axis_text("boundary[1].pressure"), "boundary[1].pressure (Pa)");
   EXPECT_EQ(axis_text("time.end"), "time.end (s)");
-  EXPECT_EQ(axis_text("fines_lost_percent"), "fines_lost_percent (%)");
+  EXPECT_EQ(axis_text("fines_lost_percent"), "fines lost, of those that could erode (%)");
   EXPECT_EQ(axis_text("law"), "law");
   EXPECT_EQ(axis_text("soil.specimen.erosion.rate"), "soil.specimen.erosion.rate");
   Scene scene = testing::unit_square_case("flux", "flux", 4.0).document.scene;

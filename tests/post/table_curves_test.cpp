@@ -51,7 +51,7 @@ TEST_F(TableCurves, AnyColumnOfAnyTable) {
   ASSERT_EQ(charts.size(), 3U);
   EXPECT_EQ(charts[0].curves[0].y, run()[0].history().column("porosity_mean"));
   EXPECT_EQ(charts[1].curves[0].y, run()[0].ledger().column("eroded"));
-  EXPECT_EQ(charts[1].y_label, "eroded (kg/m)");
+  EXPECT_EQ(charts[1].y_label, "eroded fines (kg/m)");
   ASSERT_EQ(charts[2].curves.size(), 2U);
   EXPECT_EQ(charts[2].curves[1].label, "bottom");
   EXPECT_EQ(charts[2].curves[1].y.back(), 0.005);
@@ -73,6 +73,7 @@ TEST_F(TableCurves, OnePartOfATable) {
   options.columns = {"boundaries.liquid_out:bottom", "regions.eroded:specimen"};
   const auto charts = make_figure("curves", runs(), options);
   ASSERT_EQ(charts[0].curves.size(), 2U);
+  EXPECT_EQ(charts[0].title, "Liquid that left: bottom");
   EXPECT_EQ(charts[0].curves[1].label, "b");
   EXPECT_EQ(charts[1].curves[1].y, runs()[1].region_ledgers().column("eroded"));
 }
@@ -84,7 +85,7 @@ TEST_F(TableCurves, AnotherColumnAlongXAndAxesOfChoice) {
   options.axes.log_y = true;
   options.axes.x_range = "0.3:0.35";
   const Chart chart = make_figure("curves", run(), options)[0];
-  EXPECT_EQ(chart.x_label, "porosity_mean (-)");
+  EXPECT_EQ(chart.x_label, "mean porosity (-)");
   EXPECT_TRUE(chart.logarithmic_y);
   EXPECT_EQ((*chart.x_range)[1], 0.35);
   // Eroded mass starts at zero, which has no logarithm: it is left out.
@@ -144,7 +145,8 @@ TEST_F(TableCurves, FinesThatLeftHaveANameOfTheirOwn) {
   EXPECT_EQ(run()[0].history().column("fines_out_percent"), percent);
   FigureOptions options;
   options.columns = {"fines_out_percent"};
-  EXPECT_EQ(make_figure("curves", run(), options)[0].y_label, "fines_out_percent (%)");
+  EXPECT_EQ(make_figure("curves", run(), options)[0].y_label,
+            "fines that left, of those at the start (%)");
   for (const auto& [before, now] : renamed_columns) {
     options.columns = {"history." + std::string(before)};
     EXPECT_NE(message(run(), options).find("did you mean " + std::string(now) + "?"),
@@ -192,7 +194,8 @@ TEST_F(TableCurves, ProfileAlongALineAtSeveralTimes) {
   options.count = 5;
   const auto charts = make_figure("profile", runs(), options);
   ASSERT_EQ(charts.size(), 3U);
-  EXPECT_EQ(charts[1].y_label, "darcy_flux_x (m/s)");
+  EXPECT_EQ(charts[1].y_label, "Darcy flux along x (m/s)");
+  EXPECT_EQ(charts[1].title, "Darcy flux along x from (0.25, 0.1) to (0.25, 0.9) m");
   ASSERT_EQ(charts[0].curves.size(), 4U);
   EXPECT_EQ(charts[0].curves[3].label, "b, t = 10 s");
   EXPECT_NEAR(charts[0].curves[1].x[2], 0.4, 1e-15);

@@ -4,6 +4,7 @@
 
 #include "common/errors.hpp"
 #include "post/synthetic_results.hpp"
+#include "values/name_words.hpp"
 
 namespace suffuse {
 namespace table_output_test {
@@ -41,6 +42,23 @@ TEST(TableOutput, KnowsTheUnitsOfAllColumns) {
   EXPECT_EQ(column_unit("discharge", 3), "m3/s");
   EXPECT_EQ(column_unit("energy", 2), "J/m");
   EXPECT_EQ(column_unit("no such column", 2), "");
+}
+
+/// No chart has the raw name of a column: an underscore is in no words.
+TEST(TableOutput, ColumnsHaveWords) {
+  const auto expect_words = [](const auto& columns) {
+    for (const auto& column : columns) {
+      EXPECT_EQ(column_words(std::string(column.name)).find('_'), std::string::npos) << column.name;
+    }
+  };
+  expect_words(history_columns);
+  expect_words(ledger_columns);
+  expect_words(boundary_columns);
+  expect_words(probe_columns);
+  expect_words(section_columns);
+  EXPECT_EQ(column_words("flux_x"), "Darcy flux along x");
+  EXPECT_EQ(column_words("fines_out"), "fines that left");
+  EXPECT_EQ(field_words("fines_left"), "fines left");
 }
 
 TEST(TableOutput, RefusesAnUnknownUnitOfTime) {
