@@ -11,6 +11,7 @@
 #include "files/number_text.hpp"
 #include "tables/table_output.hpp"
 #include "values/name_words.hpp"
+#include "values/outside_water.hpp"
 #include "values/refusal.hpp"
 
 namespace suffuse {
@@ -109,6 +110,16 @@ std::pair<std::string, std::vector<NamedTable>> find_parts(const ResultsReader& 
          closest_column(name.column, known));
 }
 
+/// Removes boundaries without a head outside, for which tables have the level 0.
+void remove_missing_levels(const ResultsReader& run, const std::string& column,
+                           std::vector<NamedTable>& parts) {
+  std::erase_if(parts,
+                [&](const NamedTable& part) { return !has_level(run.scene().scene, part.name); });
+  if (!parts.empty()) return;
+  refuse(curves_command, "COLUMN", '"' + column + "\" of a run without a head at its boundaries",
+         missing_key("head of a [[boundary]]", "head = 2.0"));
+}
+
 std::vector<NamedTable> wanted(std::vector<NamedTable> parts, const ColumnName& name) {
   if (name.part.empty()) return parts;
   std::vector<std::string> known;
@@ -179,7 +190,10 @@ Chart chart_of(const std::vector<ResultsReader>& runs, const std::vector<std::st
               label_of(name.column, dimension),
               {}};
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const auto [table, parts] = find_parts(runs[r], name);
+    auto [table, parts] = find_parts(runs[r], name);
+    if (table == "boundaries" && (name.column == "level" || x == "level")) {
+      remove_missing_levels(runs[r], name.text, parts);
+    }
     for (const NamedTable& part : wanted(parts, name)) {
       if (!part.table.has(x)) {
         refuse(curves_command, "--x", '"' + x + '"', quoted_list(part.table.names),

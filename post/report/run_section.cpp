@@ -8,6 +8,7 @@
 #include "report/html.hpp"
 #include "report/report_pictures.hpp"
 #include "tables/discharge_text.hpp"
+#include "values/outside_water.hpp"
 #include "values/run_names.hpp"
 
 namespace suffuse {
@@ -93,7 +94,9 @@ std::string boundaries_html(const ResultsReader& run) {
     if (is_left_out) continue;
     table.heads.push_back(with_unit(std::string(name), std::string(unit), run.dimension()));
     for (std::size_t b = 0; b < boundaries.size(); ++b) {
-      table.rows[b].push_back(html::cell(boundaries[b].table.column(std::string(name)).back()));
+      const bool is_given = name != "level" || has_level(run.scene().scene, boundaries[b].name);
+      const double last = boundaries[b].table.column(std::string(name)).back();
+      table.rows[b].push_back(is_given ? html::cell(last) : html::cell("-"));
     }
   }
   const std::string known = discharge_text(run);

@@ -66,6 +66,12 @@ std::optional<std::array<Vector<2>, 4>> water_over(const std::array<Vector<2>, 2
 
 }  // namespace
 
+bool has_level(const Scene& scene, const std::string& boundary) {
+  return std::ranges::any_of(scene.boundaries, [&](const BoundaryCondition& condition) {
+    return condition.on == boundary && condition.head;
+  });
+}
+
 std::vector<OutsideWater> outside_water(const Mesh<2>& mesh, const Scene& scene, double time,
                                         double breadth) {
   const Vector<2> gravity(scene.gravity[0], scene.gravity[1]);

@@ -10,6 +10,9 @@
 
 namespace suffuse {
 
+/// Whether the scene gives a head outside this boundary. The column `level` is 0 where it does not.
+bool has_level(const Scene& scene, const std::string& boundary);
+
 /// The water at one boundary.
 struct OutsideWater {
   std::string boundary;

@@ -15,4 +15,9 @@ namespace suffuse {
   throw InputError(InputProblem{command, option, found, expected, suggestion});
 }
 
+/// What a message expects where a scene lacks a key: `KEY in the scene, such as EXAMPLE`
+inline std::string missing_key(const std::string& key, const std::string& example) {
+  return key + " in the scene, such as " + example;
+}
+
 }  // namespace suffuse

@@ -11,6 +11,7 @@
 #include "figures/figures.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
+#include "report/report.hpp"
 
 namespace suffuse {
 namespace table_curves_test {
@@ -76,6 +77,39 @@ TEST_F(TableCurves, OnePartOfATable) {
   EXPECT_EQ(charts[0].title, "Liquid that left: bottom");
   EXPECT_EQ(charts[0].curves[1].label, "b");
   EXPECT_EQ(charts[1].curves[1].y, runs()[1].region_ledgers().column("eroded"));
+}
+
+/// Of two boundaries one has a head outside: the other one has no level, which is 0 in its table.
+TEST_F(TableCurves, BoundariesWithoutAHeadHaveNoLevel) {
+  FigureOptions options;
+  options.columns = {"boundaries.level"};
+  EXPECT_NE(message(run(), options)
+                .find("expected head of a [[boundary]] in the scene, such as head = 2.0"),
+            std::string::npos);
+  Case<2> c = testing::unit_square_case();
+  std::string text = c.document.text;
+  text.replace(text.find("pressure = 6.0e3"), 16, "head = 2.5");
+  c.document = parse_scene(text, "heads.toml");
+  {
+    ResultsWriter<2> writer(scratch_ / "heads.results", c);
+    for (const double t : {0.0, 1.0}) {
+      const std::array<BoundaryRow, 2> rows{
+          {{.t = t, .boundary = "top", .level = 2.5}, {.t = t, .boundary = "bottom"}}};
+      writer.append_boundaries(rows);
+    }
+    writer.write_run_info(RunInfo{});
+  }
+  const std::vector<ResultsReader> heads{ResultsReader(scratch_ / "heads.results")};
+  const Chart chart = make_figure("curves", heads, options)[0];
+  ASSERT_EQ(chart.curves.size(), 1U);
+  EXPECT_EQ(chart.curves[0].label, "top");
+  EXPECT_EQ(chart.curves[0].y, (std::vector{2.5, 2.5}));
+  options.columns = {"boundaries.level:bottom"};
+  EXPECT_NE(message(heads, options).find("behind the colon one of \"top\""), std::string::npos);
+  const std::string page = report_html(heads);
+  const auto row = page.find("<tr><td>bottom</td>", page.find("<table class=\"boundaries\">"));
+  EXPECT_NE(page.substr(row, page.find("</tr>", row) - row).find("<td class=\"empty\">-</td>"),
+            std::string::npos);
 }
 
 TEST_F(TableCurves, AnotherColumnAlongXAndAxesOfChoice) {
