@@ -55,7 +55,7 @@ class Gaps {
   [[nodiscard]] std::string initiation() const {
     std::string text = "concentrated leaks through cracks, contact erosion along joints";
     if (!has("erosion")) text += ", suffusion (no soil erodes)";
-    if (!has("internal-stability")) text += ", internal stability (no soil has a gradation)";
+    if (!has("internal-stability")) text += ", internal stability (key soil.NAME.gradation)";
     if (!has("heave")) text += ", heave (water rises at no boundary that it leaves through)";
     if (!has("hyd-forces")) {
       text += scene_.moves() ? ", heave by EN 1997-1 (the soil moves)"
@@ -73,8 +73,10 @@ class Gaps {
                            : "it is nowhere the ground with water pressing below it)");
   }
   [[nodiscard]] std::string continuation() const {
-    return has("filter") ? "filters between soils without a gradation"
-                         : "filters (no two soils with a gradation and flow between them)";
+    return has("filter")
+               ? "filters between soils without a gradation"
+               : "filters (no two soils with a gradation, key soil.NAME.gradation, and flow "
+                 "between them)";
   }
   [[nodiscard]] std::string progression() const {
     return has("backward-erosion") ? "pipes elsewhere than in the layer that was checked"

@@ -4,6 +4,7 @@
 
 #include "common/errors.hpp"
 #include "figures/run_curves.hpp"
+#include "values/refusal.hpp"
 #include "values/specimen.hpp"
 
 namespace suffuse {
@@ -71,7 +72,9 @@ std::vector<Chart> boundary_charts(const std::vector<ResultsReader>& runs) {
     }
   }
   if (discharge.curves.empty()) {
-    throw FileError(runs.front().folder() + ": its scene has no boundary that liquid crosses");
+    throw FileError(runs.front().folder() +
+                    ": its scene has no boundary that liquid crosses; expected " +
+                    missing_key("[[boundary]]", "on = \"top\" and head = 2.0"));
   }
   std::vector<Chart> charts{discharge};
   if (!fines.curves.empty()) charts.push_back(fines);

@@ -6,6 +6,7 @@
 #include "common/errors.hpp"
 #include "figures/run_curves.hpp"
 #include "scene/grading_checks.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
@@ -110,7 +111,9 @@ ChartTable verdicts_of(const std::vector<GradedSoil>& soils) {
 Chart gradation_chart(const std::vector<ResultsReader>& runs) {
   const std::vector<GradedSoil> soils = graded_soils(runs);
   if (soils.empty()) {
-    throw FileError(runs.front().folder() + ": no soil of its scene has a gradation");
+    throw FileError(
+        runs.front().folder() + ": no soil of its scene has a gradation; expected " +
+        missing_key("soil.NAME.gradation", "gradation = [[0.1, 0], [1.0, 60], [4.0, 100]]"));
   }
   Chart chart{"Gradation", "grain size d (mm)", "finer than d by mass, F (%)", {}};
   for (std::size_t i = 0; i < soils.size(); ++i) chart.curves.push_back(grading_curve(soils[i], i));

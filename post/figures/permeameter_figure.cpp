@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "figures/run_curves.hpp"
 #include "files/number_text.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 namespace {
@@ -31,7 +32,9 @@ Curve lost_of(const ResultsReader& run, Curve curve) {
   require_curve(run, ledger, "ledger.csv");
   const double fines = ledger.column("erodible").front();
   if (!(fines > 0.0)) {
-    throw FileError(run.folder() + ": has no fines at the start that could be lost");
+    throw FileError(
+        run.folder() + ": has no fines at the start that could be lost; expected " +
+        missing_key("soil.NAME.erosion", "erosion = { law = \"constant\", rate = 1e-3 }"));
   }
   for (std::size_t row = 0; row < ledger.rows(); ++row) {
     const double lost = ledger.column("fines_out")[row] - ledger.column("fines_in")[row];

@@ -22,6 +22,7 @@
 #include "physics/head.hpp"
 #include "values/air.hpp"
 #include "values/fields.hpp"
+#include "values/refusal.hpp"
 #include "values/snapshot_choice.hpp"
 
 namespace suffuse {
@@ -151,9 +152,10 @@ SeepageMap saturation_map(const ResultsReader& run, const std::optional<double>&
   const std::size_t index = chosen_snapshot(run, time, "suffuse-post figure saturation");
   const auto names = run.field_names(index, "cell");
   if (std::ranges::find(names, "saturation") == names.end()) {
-    throw InputError(InputProblem{"suffuse-post figure saturation", "RESULTS",
-                                  run.folder() + ", in which every soil is saturated",
-                                  "a run with a soil that has a retention law"});
+    throw InputError(InputProblem{
+        "suffuse-post figure saturation", "RESULTS",
+        run.folder() + ", in which every soil is saturated",
+        missing_key("soil.NAME.retention", "retention = { model = \"gardner\", alpha = 2.0 }")});
   }
   SeepageMap map = map_of(run, index, time, "Saturation");
   map.saturation = run.field(index, "cell", "saturation").values;

@@ -92,6 +92,39 @@ std::string label_of_part(const ResultsReader& run, const std::string& table,
   return "probe " + part + " at (" + text + ")";
 }
 
+/// A table that only scenes with a list of its own have.
+struct ListTable {
+  std::string name;
+  std::vector<std::string> columns;
+  std::string key;
+  std::string example;
+};
+
+const std::vector<ListTable>& list_tables() {
+  const auto names_of = [](const auto& columns) {
+    std::vector<std::string> names;
+    for (const auto& column : columns) names.emplace_back(column.name);
+    return names;
+  };
+  static const std::vector<ListTable> tables{
+      {"probes", names_of(probe_columns), "[[output.probe]]", "at = [0.5, 0.5]"},
+      {"sections", names_of(section_columns), "[[output.section]]",
+       "from = [0.0, 0.5] and to = [1.0, 0.5]"}};
+  return tables;
+}
+
+/// Throws InputError if the column is of a table that the scene has no list for.
+void refuse_missing_list(const ResultsReader& run, const ColumnName& name) {
+  for (const ListTable& table : list_tables()) {
+    const bool is_meant = name.table.empty()
+                              ? std::ranges::find(table.columns, name.column) != table.columns.end()
+                              : name.table == table.name;
+    if (!is_meant || !read_parts(run, table.name).empty()) continue;
+    refuse(curves_command, "COLUMN", '"' + name.text + "\" of " + run.folder(),
+           missing_key(table.key, table.example));
+  }
+}
+
 /// The parts of the first table of a run that has the column, and the table's name.
 std::pair<std::string, std::vector<NamedTable>> find_parts(const ResultsReader& run,
                                                            const ColumnName& name) {
@@ -105,6 +138,7 @@ std::pair<std::string, std::vector<NamedTable>> find_parts(const ResultsReader& 
       if (std::ranges::find(known, column) == known.end()) known.push_back(column);
     }
   }
+  refuse_missing_list(run, name);
   refuse(curves_command, "COLUMN", '"' + name.text + '"',
          known.empty() ? "a table that " + run.folder() + " has" : quoted_list(known),
          closest_column(name.column, known));

@@ -56,10 +56,11 @@ std::string mechanisms_html(const RunNumbers& numbers) {
 std::string accuracy_html(const ResultsReader& run) {
   const std::string known = discharge_text(run);
   return html::element(
-      "p", known.empty()
-               ? "The error of the mesh is not known: the scene has no mesh.error. A study "
-                 "of convergence (make convergence) or mesh.error gives it."
-               : known + ".");
+      "p",
+      known.empty()
+          ? "The error of the mesh is not known: the scene has no mesh.error, such as "
+            "mesh.error = 0.02. A study of convergence (make convergence) or mesh.error gives it."
+          : known + ".");
 }
 
 std::string gaps_html(const RunNumbers& numbers) {

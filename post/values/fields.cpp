@@ -9,6 +9,7 @@
 #include "common/errors.hpp"
 #include "values/derived_fields.hpp"
 #include "values/name_words.hpp"
+#include "values/refusal.hpp"
 #include "values/time_unit.hpp"
 
 namespace suffuse {
@@ -47,6 +48,17 @@ void check_place(const std::vector<NamedPlace>& places, const std::string& on,
   if (on.empty() || std::ranges::find(names, on) != names.end()) return;
   throw InputError(std::vector{
       InputProblem{command, "--on", '"' + on + '"', quoted_list(names), closest_name(on, names)}});
+}
+
+/// Throws InputError for a field that only soil with a law of the skeleton has.
+void refuse_field_of_moving_soil(const ResultsReader& results, const std::string& name,
+                                 const std::string& command) {
+  static const std::vector<std::string> fields{"displacement", "effective_stress",
+                                               "plastic_strain"};
+  if (results.scene().scene.moves() || std::ranges::find(fields, name) == fields.end()) return;
+  refuse(command, "--field", '"' + name + "\" of soil that does not move",
+         missing_key("soil.NAME.skeleton",
+                     "skeleton = { law = \"elastic\", young = 2e7, poisson = 0.3 }"));
 }
 
 /// A blank and the symbol of a field from the table in docs/theory/README.md, or nothing.
@@ -89,6 +101,7 @@ FieldPlace find_field(const ResultsReader& results, std::size_t index, const std
       known.insert(known.end(), names.begin(), names.end());
     }
   }
+  refuse_field_of_moving_soil(results, name, command);
   throw InputError(InputProblem{
       command, "--field", '"' + name + '"' + (on.empty() ? "" : " on " + on),
       "one of the fields " + fields_and_places(results, index), closest_name(name, known)});

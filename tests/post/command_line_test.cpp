@@ -306,6 +306,18 @@ TEST_F(PostCommand, UnknownField) {
   EXPECT_FALSE(fs::exists(scratch / "s.csv"));
 }
 
+TEST_F(PostCommand, AFieldThatTheSceneLacksIsNamedWithItsKey) {
+  expect_refusal(
+      "render " + run + " --field displacement", 2,
+      "suffuse-post render: --field: got \"displacement\" of soil that does not move; "
+      "expected soil.NAME.skeleton in the scene, such as skeleton = { law = \"elastic\", "
+      "young = 2e7, poisson = 0.3 }");
+  expect_refusal("figure gradation " + run + " -o " + scratch / "f.png", 4,
+                 "suffuse-post: error: " + run +
+                     ": no soil of its scene has a gradation; expected soil.NAME.gradation in the "
+                     "scene, such as gradation = [[0.1, 0], [1.0, 60], [4.0, 100]]");
+}
+
 TEST_F(PostCommand, TimeOutside) {
   for (const std::string time : {"40.1", "-1", "nan"}) {
     expect_refusal(

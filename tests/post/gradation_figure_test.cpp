@@ -127,7 +127,10 @@ TEST(GradationFigure, needs_a_gradation) {
     draw_figure("gradation", {run}, scratch / "a.png");
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_EQ(error.what(), run.folder() + ": no soil of its scene has a gradation");
+    EXPECT_EQ(error.what(),
+              run.folder() +
+                  ": no soil of its scene has a gradation; expected soil.NAME.gradation in the "
+                  "scene, such as gradation = [[0.1, 0], [1.0, 60], [4.0, 100]]");
   }
 }
 

@@ -207,7 +207,18 @@ TEST_F(TableCurves, WhatIsNotThereIsRefused) {
   options.columns = {"boundaries.discharge:topp"};
   EXPECT_NE(message(run(), options).find("did you mean top?"), std::string::npos);
   options.columns = {"probes.head"};
-  EXPECT_NE(message(run(), options).find("expected a table that"), std::string::npos);
+  const std::string folder = scratch_ / "a.results";
+  EXPECT_EQ(message(run(), options), "suffuse-post figure curves: COLUMN: got \"probes.head\" of " +
+                                         folder +
+                                         "; expected [[output.probe]] in the scene, such as at = "
+                                         "[0.5, 0.5]");
+  for (const char* column : {"sections.discharge", "volume"}) {
+    options.columns = {column};
+    EXPECT_NE(message(run(), options)
+                  .find("expected [[output.section]] in the scene, such as from = [0.0, 0.5] and "
+                        "to = [1.0, 0.5]"),
+              std::string::npos);
+  }
   options.columns = {"eroded"};
   options.axes.y_range = "2:1";
   EXPECT_NE(message(run(), options).find("--y-range: got \"2:1\"; expected LO:HI"),
