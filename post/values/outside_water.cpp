@@ -10,8 +10,8 @@
 namespace suffuse {
 namespace {
 
-/// Largest lean of an upright edge, relative to its length: the water next to it is drawn as next
-/// to a wall.
+/// Largest lean of an upright edge, relative to its length. There the model is cut off, mostly, and
+/// no free water stands.
 constexpr double upright = 0.05;
 
 /// Directions against gravity and across it.
@@ -43,19 +43,15 @@ std::optional<std::array<Vector<2>, 2>> wet_part(const Vector<2>& a, const Vecto
   return part;
 }
 
-/// The water over one wet edge; nothing below an overhang.
+/// The water over one wet edge; nothing beside an upright one and below an overhang.
 std::optional<std::array<Vector<2>, 4>> water_over(const std::array<Vector<2>, 2>& wet,
                                                    const Vector<2>& inside, const Axes& axes,
-                                                   double head, double breadth) {
+                                                   double head) {
   const auto& [a, b] = wet;
   const Vector<2> way = b - a;
   const double rise = std::abs(way.dot(axes.up));
   const double run = std::abs(way.dot(axes.across));
-  if (run <= upright * rise) {
-    const bool soil_is_ahead = (inside - a).dot(axes.across) > 0.0;
-    const Vector<2> out = (soil_is_ahead ? -breadth : breadth) * axes.across;
-    return std::array<Vector<2>, 4>{a, b, b + out, a + out};
-  }
+  if (run <= upright * rise) return std::nullopt;
   // Where the soil is above the edge, the edge is an overhang, and no water is over it.
   const double slope = way.dot(axes.up) / way.dot(axes.across);
   const Vector<2> arm = inside - a;
@@ -93,7 +89,7 @@ std::vector<OutsideWater> outside_water(const Mesh<2>& mesh, const Scene& scene,
       const auto wet = wet_part(mesh.nodes[face[0]], mesh.nodes[face[1]], up, water.head);
       if (!wet) continue;
       const Vector<2>& inside = mesh.nodes[opposite.at(face_key<2>(face))];
-      if (const auto body = water_over(*wet, inside, axes, water.head, breadth)) {
+      if (const auto body = water_over(*wet, inside, axes, water.head)) {
         water.body.push_back(*body);
       }
     }

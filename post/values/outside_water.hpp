@@ -22,8 +22,9 @@ struct OutsideWater {
 };
 
 /// The water at `time`, s, at every boundary whose head is above a part of it, under gravity; wells
-/// are within the model and have none. Over sloping or horizontal edges the water reaches up to the
-/// level; next to upright edges it is `breadth` m wide.
+/// are within the model and have none. Water reaches from sloping and horizontal edges up to the
+/// level; beside upright edges, where a model is cut off, none is drawn. A level is at least
+/// `breadth` m wide.
 std::vector<OutsideWater> outside_water(const Mesh<2>& mesh, const Scene& scene, double time,
                                         double breadth);
 
