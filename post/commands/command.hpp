@@ -62,6 +62,9 @@ struct TableOutput {
   std::string time_unit = "s";
 };
 
+/// Values of options for one time.
+inline constexpr const char* time_form = "T[s|min|h|d|a]";
+
 /// Adds the option --csv, whose help says that it writes `what`, and --time-unit.
 void add_table_options(CLI::App& command, TableOutput& output, const std::string& what);
 

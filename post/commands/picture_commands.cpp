@@ -22,6 +22,7 @@ namespace {
 struct FieldOptions {
   std::string results;
   RenderRequest request;
+  std::string time;
   std::string range;
   std::string view;
   std::string cut;
@@ -31,6 +32,7 @@ struct FieldOptions {
   /// The request, with the values of the options that are given as text.
   [[nodiscard]] RenderRequest read() const {
     RenderRequest result = request;
+    if (!time.empty()) result.time = parse_time(time, "suffuse-post render");
     if (!range.empty()) result.range = parse_range(range);
     if (!view.empty()) result.view = parse_view(view);
     if (!cut.empty()) result.cut = parse_cut(cut, "suffuse-post render");
@@ -75,8 +77,11 @@ void declare_field(CLI::App& command, FieldOptions& o) {
 
 void declare_render(CLI::App& command, FieldOptions& o) {
   declare_field(command, o);
-  auto* time = command.add_option("--time", o.request.time,
-                                  "time, s: the nearest snapshot; without it the last");
+  auto* time = command
+                   .add_option("--time", o.time,
+                               "time, s or with its unit, as 2.5d: the nearest snapshot; without "
+                               "it the last")
+                   ->type_name(time_form);
   command
       .add_flag("--all", o.request.all, "every snapshot, in the same colours: FILE_0000.png, ...")
       ->excludes(time);
@@ -128,6 +133,7 @@ struct FigureCommandOptions {
   std::string name;
   std::vector<std::string> arguments;  ///< results folders; for "curves", column names first
   FigureOptions figure;
+  std::string time;
   std::string output;
 };
 
@@ -151,9 +157,11 @@ void declare_figure(CLI::App& command, FigureCommandOptions& o) {
                   "TABLE.COLUMN, TABLE.COLUMN:NAME")
       ->required()
       ->type_name("[COLUMN...] FOLDER...");
-  command.add_option(
-      "--time", o.figure.time,
-      "of \"flownet\", \"head\" and \"saturation\", s: the nearest snapshot; without it the last");
+  command
+      .add_option("--time", o.time,
+                  "of \"flownet\", \"head\" and \"saturation\", s or with its unit, as 2.5d: the "
+                  "nearest snapshot; without it the last")
+      ->type_name(time_form);
   command
       .add_option("--tubes", o.figure.tubes,
                   "of \"flownet\": tubes of equal discharge; without it as many as make squares")
@@ -163,8 +171,8 @@ void declare_figure(CLI::App& command, FigureCommandOptions& o) {
   command.add_option("--fields", o.figure.fields, "of \"profile\"")->type_name("NAME,...");
   command
       .add_option("--times", o.figure.times,
-                  "of \"profile\", s, with commas between; all: those of the snapshots; without it "
-                  "the last")
+                  "of \"profile\", s or with their units, with commas between; all: those of the "
+                  "snapshots; without it the last")
       ->type_name("T,...|all");
   command.add_option("--count", o.figure.count, "of \"profile\": points on the line")
       ->capture_default_str();
@@ -188,6 +196,7 @@ void declare_figure(CLI::App& command, FigureCommandOptions& o) {
 void figure(const FigureCommandOptions& o) {
   picture_format(o.output);
   FigureOptions options = o.figure;
+  if (!o.time.empty()) options.time = parse_time(o.time, "suffuse-post figure");
   std::vector<std::string> folders = o.arguments;
   if (o.name == "curves") {
     const auto first = std::ranges::find_if(

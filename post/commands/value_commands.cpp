@@ -1,18 +1,18 @@
 /// The subcommands `sample` and `error`.
 
 #include <iostream>
-#include <optional>
 
 #include "commands/command.hpp"
 #include "tables/reference_error.hpp"
 #include "values/sample.hpp"
+#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {
 
 struct SampleOptions {
   std::string results;
-  std::optional<double> time;
+  std::string time;
   std::string times;
   std::string line;
   std::string place;
@@ -25,7 +25,10 @@ struct SampleOptions {
 void declare_sample(CLI::App& command, SampleOptions& o) {
   add_results(command, o.results);
   auto* times = command.add_option_group("time")->require_option(1);
-  times->add_option("--time", o.time, "time, s; between snapshots by interpolation");
+  times
+      ->add_option("--time", o.time,
+                   "time, s or with its unit, as 2.5d; between snapshots by interpolation")
+      ->type_name(time_form);
   times->add_option("--times", o.times, "several, with commas between; all: those of the snapshots")
       ->type_name("T,...|all");
   auto* places = command.add_option_group("place")->require_option(1);
@@ -49,9 +52,10 @@ void sample_fields(const SampleOptions& o) {
   request.change = o.change;
   SampleNames names;
   if (!o.place.empty()) names.places = "--at";
-  if (!o.time) names.time = "--times";
+  if (o.time.empty()) names.time = "--times";
   const ResultsReader results(o.results);
-  request.times = o.time ? std::vector{*o.time} : parse_times(results, o.times);
+  request.times = o.time.empty() ? parse_times(results, o.times)
+                                 : std::vector{parse_time(o.time, names.command)};
   write_csv(results, o.table, sample(results, request, names));
 }
 

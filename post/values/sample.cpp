@@ -11,6 +11,7 @@
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 #include "values/refusal.hpp"
+#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {
@@ -269,10 +270,10 @@ std::vector<double> parse_times(const ResultsReader& results, const std::string&
   if (text == "all") return results.times();
   std::vector<double> times;
   for (const std::string& part : split(text, ',')) {
-    const auto time = parse_number(part);
+    const auto time = read_time(part);
     if (!time)
       refuse(SampleNames{}.command, "--times", "\"" + text + "\"",
-             "all, or times in s with commas between");
+             "all, or times with commas between, each " + time_forms());
     times.push_back(*time);
   }
   return times;

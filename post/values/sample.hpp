@@ -29,7 +29,8 @@ Position parse_place(const std::string& text);
 /// Reads `a,b,c`. Throws InputError on an empty name.
 std::vector<std::string> parse_field_names(const std::string& text);
 
-/// Times of all snapshots for `all`, otherwise those of `t1,t2,...`. Throws InputError.
+/// Times of all snapshots for `all`, otherwise those of `t1,t2,...`, in s or with a unit each.
+/// Throws InputError.
 std::vector<double> parse_times(const ResultsReader& results, const std::string& text);
 
 /// `count` >= 2 places, evenly spaced from end to end of the line. Throws InputError.

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/closest_name.hpp"
 #include "files/number_text.hpp"
+#include "values/refusal.hpp"
 
 namespace suffuse {
 
@@ -12,6 +14,28 @@ const std::vector<TimeUnit>& time_units() {
   static const std::vector<TimeUnit> units{
       {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}, {"d", 86400.0}, {"a", 365.25 * 86400.0}};
   return units;
+}
+
+std::optional<double> read_time(const std::string& text) {
+  if (const auto seconds = parse_number(text)) return seconds;
+  for (const TimeUnit& unit : time_units()) {
+    if (!text.ends_with(unit.name)) continue;
+    std::string number = text.substr(0, text.size() - unit.name.size());
+    while (number.ends_with(' ')) number.pop_back();
+    if (const auto count = parse_number(number)) return *count * unit.seconds;
+  }
+  return std::nullopt;
+}
+
+std::string time_forms() {
+  std::vector<std::string> names;
+  for (const TimeUnit& unit : time_units()) names.push_back(unit.name);
+  return "in s, or with a unit behind the number, " + quoted_list(names) + ", as 2.5d";
+}
+
+double parse_time(const std::string& text, const std::string& command, const std::string& option) {
+  if (const auto time = read_time(text)) return *time;
+  refuse(command, option, '"' + text + '"', "a time " + time_forms());
 }
 
 TimeUnit fitting_time_unit(double end) {

@@ -2,6 +2,7 @@
 
 /// Units of time in which results are shown.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,13 @@ struct TimeUnit {
 
 /// All units, ascending.
 const std::vector<TimeUnit>& time_units();
+/// A time that a user gives, s: `3600`, `2.5d`, `30 min`; nothing for any other text.
+std::optional<double> read_time(const std::string& text);
+/// `read_time`. Throws InputError, naming `command` and `option`, for a text that is no time.
+double parse_time(const std::string& text, const std::string& command,
+                  const std::string& option = "--time");
+/// "in s, or with a unit behind the number: ...": what messages expect.
+std::string time_forms();
 /// The unit in which times up to `end` (s) are small numbers.
 TimeUnit fitting_time_unit(double end);
 /// "6 d"

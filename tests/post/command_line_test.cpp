@@ -327,6 +327,34 @@ TEST_F(PostCommand, TimeOutside) {
   }
 }
 
+TEST_F(PostCommand, TimesMayHaveAUnit) {
+  const std::string place = " --at 0.5,0.5 --fields porosity";
+  for (const std::string time :
+       {"--time 30s", "--time 0.5min", "--time '0.5 min'", "--times 30s", "--times 0.5min"}) {
+    EXPECT_EQ(post(sample_start + time + place).code, 0) << time;
+    EXPECT_EQ(read_table(scratch / "s.csv").column("t"), std::vector{30.0}) << time;
+  }
+  const std::string picture = scratch / "p.svg";
+  EXPECT_EQ(post("render " + run + " --field porosity --time 0.5min -o " + picture).code, 0);
+  EXPECT_NE(file_text(picture).find("snapshot nearest to 30 s"), std::string::npos);
+  const std::string expected =
+      "in s, or with a unit behind the number, \"s\", \"min\", \"h\", \"d\" or \"a\", as 2.5d";
+  for (const std::string time : {"5hours", "d", "1d2h", "0.5 weeks"}) {
+    const std::string found = ": got \"" + time + "\"; expected ";
+    const std::string option = "--time '" + time + "'";
+    expect_refusal(sample_start + option + place, 2,
+                   "suffuse-post sample: --time" + found + "a time " + expected);
+    expect_refusal("render " + run + " --field porosity " + option + " -o " + picture, 2,
+                   "suffuse-post render: --time" + found + "a time " + expected);
+    expect_refusal("figure head " + run + " " + option + " -o " + picture, 2,
+                   "suffuse-post figure: --time" + found + "a time " + expected);
+  }
+  expect_refusal(sample_start + "--times 1,5hours" + place, 2,
+                 "suffuse-post sample: --times: got \"1,5hours\"; expected all, or times with "
+                 "commas between, each " +
+                     expected);
+}
+
 TEST_F(PostCommand, PointOutside) {
   expect_refusal(sample_start + "--time 1 --line 0.5,0:0.5,2 --count 3 --fields porosity", 2,
                  "suffuse-post sample: --line: got the point (0.5, 2); expected points inside the "
