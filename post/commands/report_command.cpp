@@ -1,6 +1,7 @@
 /// The subcommand `report`.
 
 #include <filesystem>
+#include <iostream>
 
 #include "commands/command.hpp"
 #include "report/report.hpp"
@@ -13,6 +14,7 @@ struct ReportOptions {
   std::vector<std::string> results;
   std::string output;
   std::vector<std::string> tables;
+  bool quiet = false;
 };
 
 void declare_report(CLI::App& command, ReportOptions& o) {
@@ -24,6 +26,7 @@ void declare_report(CLI::App& command, ReportOptions& o) {
           "a table to show on the first page, such as factors of safety or critical levels; "
           "repeatable")
       ->type_name("FILE.csv");
+  command.add_flag("--quiet", o.quiet, "no progress on standard error");
 }
 
 void report(const ReportOptions& o) {
@@ -34,7 +37,10 @@ void report(const ReportOptions& o) {
   }
   const auto runs = open_all(o.results);
   for (const auto& run : runs) refuse_inside(run, "-o", o.output);
-  write_report(runs, o.output, o.tables);
+  const ReportProgress progress = [](const std::string& part) {
+    std::cerr << "suffuse-post report: " << part << '\n';
+  };
+  write_report(runs, o.output, o.tables, o.quiet ? ReportProgress{} : progress);
 }
 
 }  // namespace

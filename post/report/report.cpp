@@ -94,31 +94,36 @@ std::string page(const std::string& title, const std::string& body) {
 }  // namespace
 
 std::string report_html(const std::vector<ResultsReader>& runs,
-                        const std::vector<std::string>& tables) {
+                        const std::vector<std::string>& tables, const ReportProgress& progress) {
   const std::vector<std::string> labels = run_labels(runs);
+  const bool several = runs.size() > 1;
+  const auto of_run = [&](std::size_t r) -> ReportProgress {
+    const std::string start = several ? labels[r] + ": " : "";
+    return [&progress, start](const std::string& part) { tell(progress, start + part); };
+  };
   std::vector<RunNumbers> numbers;
   std::string title;
   for (std::size_t r = 0; r < runs.size(); ++r) {
+    tell(of_run(r), "numbers and checks");
     numbers.push_back(run_numbers(runs[r]));
     title += (r == 0 ? "" : ", ") + labels[r];
   }
-  const bool several = runs.size() > 1;
   std::string body = several ? runs_table(labels, runs, numbers) : "";
   if (!several) body = first_page(runs[0], numbers[0]);
   for (const std::string& path : tables) body += table_file_html(runs.front(), path);
-  body += contents(labels) + "<h2 id=\"curves\">Curves</h2>\n" + curves_html(runs);
+  body += contents(labels) + "<h2 id=\"curves\">Curves</h2>\n" + curves_html(runs, progress);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     body += "<section class=\"run\" id=\"" + id_of(r) + "\">\n" +
             html::element("h2", several ? labels[r] : "The run");
     if (several) body += first_page(runs[r], numbers[r]);
-    body += run_section(runs[r], numbers[r], id_of(r)) + "</section>\n";
+    body += run_section(runs[r], numbers[r], id_of(r), of_run(r)) + "</section>\n";
   }
   return page(title, body);
 }
 
 void write_report(const std::vector<ResultsReader>& runs, const std::string& path,
-                  const std::vector<std::string>& tables) {
-  const std::string page = report_html(runs, tables);
+                  const std::vector<std::string>& tables, const ReportProgress& progress) {
+  const std::string page = report_html(runs, tables, progress);
   PendingFile file(path);
   std::ofstream out(file.temporary_path(), std::ios::binary);
   out << page << std::flush;

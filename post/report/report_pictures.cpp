@@ -17,6 +17,7 @@
 #include "values/derived_fields.hpp"
 #include "values/dry_mass.hpp"
 #include "values/fields.hpp"
+#include "values/name_words.hpp"
 #include "values/run_names.hpp"
 
 namespace suffuse {
@@ -266,8 +267,9 @@ std::vector<std::size_t> snapshots_evenly(const std::vector<double>& times, std:
   return chosen;
 }
 
-std::string model_html(const ResultsReader& run) {
+std::string model_html(const ResultsReader& run, const ReportProgress& progress) {
   if (run.times().empty()) return html::element("p", "The run has no snapshot yet.");
+  tell(progress, "sketch of the model");
   const ScratchFolder folder("suffuse-post");
   const std::string path = (folder.path() / "model.png").string();
   draw_figure("model", {run}, path);
@@ -295,16 +297,19 @@ std::string factor_html(const ResultsReader& run, const std::vector<double>& tim
          card(image(path, "Factor of safety against time")) + "</figure>\n";
 }
 
-std::string curves_html(const std::vector<ResultsReader>& runs) {
+std::string curves_html(const std::vector<ResultsReader>& runs, const ReportProgress& progress) {
   const ScratchFolder folder("suffuse-post");
   std::string charts;
   if (runs.size() == 1) charts += heads_html(runs.front(), folder);
-  for (const CurveColumn& column : curve_columns()) charts += curve_html(runs, column, folder);
+  for (const CurveColumn& column : curve_columns()) {
+    tell(progress, "curves of " + column_words(column.column));
+    charts += curve_html(runs, column, folder);
+  }
   if (charts.empty()) return html::element("p", "There are too few rows for curves yet.");
   return "<div class=\"charts\">" + charts + "</div>\n";
 }
 
-std::string fields_html(const ResultsReader& run) {
+std::string fields_html(const ResultsReader& run, const ReportProgress& progress) {
   const std::vector<std::size_t> snapshots = snapshots_evenly(run.times(), max_snapshots);
   if (snapshots.empty()) return html::element("p", "The run has no snapshot yet.");
   static const std::vector<ShownField> fields{
@@ -313,8 +318,16 @@ std::string fields_html(const ResultsReader& run) {
       {"safety", false,
        "Safety against heave; where water does not rise it has the colour of the largest"}};
   const ScratchFolder folder("suffuse-post");
+  const auto tell_of = [&](const std::string& field) {
+    tell(progress, "pictures of " + field + ", " + std::to_string(snapshots.size()) +
+                       (snapshots.size() == 1 ? " time" : " times"));
+  };
+  tell_of("head");
   std::string films = head_html(run, snapshots, folder);
-  for (const ShownField& field : fields) films += field_html(run, field, snapshots, folder);
+  for (const ShownField& field : fields) {
+    tell_of((field.change ? "the change of " : "") + field_words(field.name));
+    films += field_html(run, field, snapshots, folder);
+  }
   return films;
 }
 

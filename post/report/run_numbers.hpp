@@ -18,9 +18,9 @@ namespace suffuse {
 /// empty.
 struct RunNumbers {
   RunRecord record;
-  double end = 0.0;                     ///< last time in the tables, s
-  std::size_t rows = 0;                 ///< number of rows in the tables
-  std::optional<double> fines_out;      ///< kg (per metre of thickness in 2D)
+  double end = 0.0;                 ///< last time in the tables, s
+  std::size_t rows = 0;             ///< number of rows in the tables
+  std::optional<double> fines_out;  ///< kg (per metre of thickness in 2D)
   /// `fines_out` in per cent of the dry mass at the start of the soils that exchange fines.
   std::optional<double> fines_percent;
   std::vector<Balance> balances;

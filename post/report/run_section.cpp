@@ -182,15 +182,17 @@ std::string reproduce_html(const ResultsReader& run, const RunRecord& record) {
 
 }  // namespace
 
-std::string run_section(const ResultsReader& run, const RunNumbers& numbers,
-                        const std::string& id) {
-  return heading(id, "model", "Model") + model_html(run) + scene_html(run) +
-         heading(id, "plan", "What ran") + plan_html(numbers.record) +
-         heading(id, "ledger", "Ledger") + ledger_html(run, numbers) +
-         heading(id, "boundaries", "Boundaries") + boundaries_html(run) + history_html(run) +
-         heading(id, "fields", "Fields") + fields_html(run) + heading(id, "safety", "Safety") +
-         safety_html(run, numbers) + heading(id, "reproduce", "How to make it again") +
-         reproduce_html(run, numbers.record);
+std::string run_section(const ResultsReader& run, const RunNumbers& numbers, const std::string& id,
+                        const ReportProgress& progress) {
+  std::string text = heading(id, "model", "Model");
+  text += model_html(run, progress) + scene_html(run);
+  text += heading(id, "plan", "What ran") + plan_html(numbers.record);
+  text += heading(id, "ledger", "Ledger") + ledger_html(run, numbers);
+  text += heading(id, "boundaries", "Boundaries") + boundaries_html(run) + history_html(run);
+  text += heading(id, "fields", "Fields") + fields_html(run, progress);
+  text += heading(id, "safety", "Safety") + safety_html(run, numbers);
+  text += heading(id, "reproduce", "How to make it again") + reproduce_html(run, numbers.record);
+  return text;
 }
 
 std::string shell_argument(const std::string& text) {

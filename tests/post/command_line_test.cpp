@@ -327,6 +327,17 @@ TEST_F(PostCommand, TimeOutside) {
   }
 }
 
+TEST_F(PostCommand, ReportPrintsItsProgressUnlessQuiet) {
+  const std::string page = scratch / "a.html";
+  const Outcome outcome = post("report " + run + " -o " + page);
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.error.find("suffuse-post report: pictures of head, 3 times\n"),
+            std::string::npos)
+      << outcome.error;
+  EXPECT_EQ(post("report --quiet " + run + " -o " + page).error, "");
+}
+
 TEST_F(PostCommand, TimesMayHaveAUnit) {
   const std::string place = " --at 0.5,0.5 --fields porosity";
   for (const std::string time :

@@ -215,6 +215,18 @@ TEST_F(Report, FirstPageSaysWhatItLacksAndShowsTables) {
   EXPECT_THROW(report_html({ResultsReader(folder)}, {scratch / "short.csv"}), InputError);
 }
 
+TEST_F(Report, TellsWhatItWorksOn) {
+  std::vector<std::string> parts;
+  report_html({ResultsReader(folder)}, {}, [&](const std::string& part) { parts.push_back(part); });
+  const auto place = [&](const std::string& part) {
+    return std::ranges::find(parts, part) - parts.begin();
+  };
+  EXPECT_EQ(place("numbers and checks"), 0);
+  EXPECT_LT(place("curves of mean porosity"), place("sketch of the model"));
+  EXPECT_LT(place("sketch of the model"), place("pictures of head, 3 times"));
+  EXPECT_LT(place("pictures of the change of porosity, 3 times"), std::ssize(parts));
+}
+
 TEST_F(Report, IsWrittenWholeOrNotAtAll) {
   const std::string path = scratch / "report.html";
   write_report({ResultsReader(folder)}, path);
