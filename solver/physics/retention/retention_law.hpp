@@ -33,7 +33,8 @@ struct RetentionModel {
   const RetentionLaw* law = nullptr;  ///< null: saturated at any pressure
   double residual_saturation = 0.0;   ///< S_r
   RetentionParameters parameters = {};
-  /// Suction head, m, at which half of S_r is lost: soil that moves dries as its pores open.
+  /// Suction head at which half of the residual saturation is lost, m. Soil that moves can fall
+  /// below the residual saturation when its pores open.
   double dries_at = std::numeric_limits<double>::infinity();
 
   /// The state at a pressure head, m; saturated where psi >= 0.

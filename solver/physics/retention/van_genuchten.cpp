@@ -26,11 +26,10 @@ RetentionState at(const RetentionParameters& p, double psi) {
   const double dry = (is_dry ? 1.0 : small) / (1.0 + small);    // x / (1 + x)
   const double wet = (is_dry ? small : 1.0) / (1.0 + small);    // 1 / (1 + x)
   const double per_psi = -m * p.n / psi;
-  const double effective = std::exp(-m * log_wet);
-  RetentionState state{.saturation = effective, .capacity = per_psi * dry * effective};
-  // 1 - (1 - S_e^(1/m))^m with S_e^(1/m) = 1 / (1 + x)
-  const double opened = -std::expm1(-m * log_dry);
-  const double root = std::sqrt(effective);
+  RetentionState state{.saturation = std::exp(-m * log_wet)};
+  state.capacity = per_psi * dry * state.saturation;
+  const double opened = -std::expm1(-m * log_dry);  // 1 - (1 - S_e^(1/m))^m
+  const double root = std::sqrt(state.saturation);
   state.relative_conductivity = root * opened * opened;
   state.conductivity_slope =
       per_psi * root * opened * (0.5 * dry * opened + 2.0 * (1.0 - opened) * wet);
