@@ -366,8 +366,8 @@ TEST(SeepageMap, RefusesWhatItCannotDraw) {
   const ScratchFolder scratch;
   const ResultsReader run = heavy_run(scratch, false);
   EXPECT_NE(refusal([&] { draw_figure("saturation", {run}, scratch / "a.png"); })
-                .find("in which every soil is saturated; expected a run with a soil that has a "
-                      "retention law"),
+                .find("in which every soil is saturated; expected soil.NAME.retention in the "
+                      "scene, such as retention"),
             std::string::npos);
   EXPECT_NE(refusal([&] {
               draw_figure("head", {run, run}, scratch / "a.png");
