@@ -12,7 +12,7 @@ std::vector<bool> elements_of_air(const ResultsReader& run, std::size_t index,
   const Scene& scene = run.scene().scene;
   const auto is_open = [&](const std::string& region) { return can_hold_air(scene, region); };
   if (std::ranges::none_of(mesh.region_names, is_open)) return {};
-  constexpr double soil_is_there = 0.99;  // porosity
+  constexpr double soil_is_there = 0.8;  // porosity; a third of the element or more
   const auto porosity = run.field(index, "cell", "porosity").values;
   const auto saturation = run.field(index, "cell", "saturation").values;
   std::vector<bool> air;

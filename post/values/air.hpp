@@ -1,6 +1,6 @@
 #pragma once
 
-/// The elements of a model that hold only air, of which maps show nothing.
+/// The elements of a model that hold next to nothing but air, of which maps show nothing.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace suffuse {
 
-/// Per element: whether it is in a region without soil, no soil has moved into it, and it is less
-/// than half full of water; empty if there is no such region.
+/// Per element: whether it is in a region without soil, soil that has moved fills less than a third
+/// of it, and it is less than half full of water; empty if there is no such region.
 template <int Dim>
 std::vector<bool> elements_of_air(const ResultsReader& run, std::size_t index,
                                   const Mesh<Dim>& mesh);
