@@ -185,7 +185,7 @@ CheckReport check_run(const ResultsReader& results, const CheckSettings& setting
 }
 
 std::vector<CheckRow> exceeded_first(std::vector<CheckRow> rows) {
-  std::ranges::stable_partition(rows, &CheckRow::fails);
+  std::stable_partition(rows.begin(), rows.end(), [](const CheckRow& row) { return row.fails(); });
   return rows;
 }
 

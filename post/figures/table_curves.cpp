@@ -103,6 +103,7 @@ struct ListTable {
 const std::vector<ListTable>& list_tables() {
   const auto names_of = [](const auto& columns) {
     std::vector<std::string> names;
+    names.reserve(columns.size());
     for (const auto& column : columns) names.emplace_back(column.name);
     return names;
   };
