@@ -162,12 +162,6 @@ std::vector<PartSafety> safety_of(const ResultsReader& results) {
   return with_mesh(results, [&](const auto& mesh) { return safety_in(results, mesh); });
 }
 
-std::string place_text(const std::vector<double>& place) {
-  std::string text;
-  for (const double x : place) text += (text.empty() ? "(" : ", ") + short_text(x);
-  return text + ")";
-}
-
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts,
                         const TextStyle& style) {
   std::size_t width = 0;

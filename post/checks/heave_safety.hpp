@@ -38,9 +38,6 @@ struct PartSafety {
 /// All soil first, then the boundaries of the scene. Throws FileError.
 std::vector<PartSafety> safety_of(const ResultsReader& results);
 
-/// A place as text, m: "(1.5, 0.25)".
-std::string place_text(const std::vector<double>& place);
-
 /// The safeties as an aligned table, with an explanation.
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts,
                         const TextStyle& style = {});

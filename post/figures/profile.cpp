@@ -6,7 +6,6 @@
 #include "drawing/color_map.hpp"
 #include "drawing/ticks.hpp"
 #include "figures/measured.hpp"
-#include "files/number_text.hpp"
 #include "tables/table_output.hpp"
 #include "values/name_words.hpp"
 #include "values/refusal.hpp"
@@ -46,11 +45,7 @@ SampleRequest request_of(const ResultsReader& run, const FigureOptions& options)
 
 /// "(0.5, 0) to (0.5, 1) m"
 std::string ends_text(const SampleLine& line) {
-  const auto place = [](const Position& x) {
-    std::string text;
-    for (int d = 0; d < x.size(); ++d) text += (d == 0 ? "(" : ", ") + short_text(x[d]);
-    return text + ")";
-  };
+  const auto place = [](const Position& x) { return place_text({x.begin(), x.end()}); };
   return place(line.from) + " to " + place(line.to) + " m";
 }
 

@@ -8,7 +8,6 @@
 #include "figures/axes.hpp"
 #include "figures/measured.hpp"
 #include "figures/run_curves.hpp"
-#include "files/number_text.hpp"
 #include "tables/table_output.hpp"
 #include "values/name_words.hpp"
 #include "values/outside_water.hpp"
@@ -87,9 +86,8 @@ std::string label_of_part(const ResultsReader& run, const std::string& table,
   if (table == "sections") return "section " + part;
   if (table != "probes") return part;
   const OutputProbe& probe = run.scene().scene.output.probes[std::stoul(part)];
-  std::string text;
-  for (int d = 0; d < run.dimension(); ++d) text += (d == 0 ? "" : ", ") + short_text(probe.at[d]);
-  return "probe " + part + " at (" + text + ")";
+  return "probe " + part + " at " +
+         place_text({probe.at.begin(), probe.at.begin() + run.dimension()});
 }
 
 /// A table that only scenes with a list of its own have.

@@ -73,6 +73,12 @@ std::string shown_unit(const std::string& unit, int dimension) {
   return dimension == 2 && is_extensive(unit) ? unit + "/m" : unit;
 }
 
+std::string place_text(const std::vector<double>& place) {
+  std::string text;
+  for (const double x : place) text += (text.empty() ? "(" : ", ") + short_text(x);
+  return text + ")";
+}
+
 std::string alarm_line(const std::string& line, const TextStyle& style) {
   return style.colors ? "\033[1;31m" + line + "\033[0m" : line;
 }

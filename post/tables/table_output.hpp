@@ -32,6 +32,9 @@ struct TextStyle {
 /// A line about an exceeded limit.
 std::string alarm_line(const std::string& line, const TextStyle& style);
 
+/// A place as text, m: "(1.5, 0.25)".
+std::string place_text(const std::vector<double>& place);
+
 /// Text padded to `width` letters: aligned to the right, or to the left for a negative width.
 std::string padded(const std::string& text, int width);
 

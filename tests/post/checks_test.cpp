@@ -18,6 +18,7 @@ namespace checks_test {
 
 using testing::run_programs;
 using testing::ScratchFolder;
+using testing::two_layers;
 
 constexpr double water = 9810.0;  // unit weight, N/m3
 
@@ -110,18 +111,6 @@ TEST(Checks, SinkingWaterHasNoHeave) {
   for (const CheckRow& row : report.rows) {
     EXPECT_FALSE(row.mechanism.starts_with("hyd-")) << row.where;
   }
-}
-
-/// Two layers of 1 m on top of each other.
-std::string two_layers() {
-  return "Point(1) = {0, 0, 0}; Point(2) = {0.5, 0, 0}; Point(3) = {0.5, 1, 0};\n"
-         "Point(4) = {0, 1, 0}; Point(5) = {0.5, 2, 0}; Point(6) = {0, 2, 0};\n"
-         "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
-         "Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 4};\n"
-         "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
-         "Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(2) = {2};\n"
-         "Physical Surface(\"sand\") = {1}; Physical Surface(\"clay\") = {2};\n"
-         "Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {6};\n";
 }
 
 constexpr const char* sand_sizes =

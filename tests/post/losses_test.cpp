@@ -13,6 +13,7 @@ namespace losses_test {
 
 using testing::run_programs;
 using testing::ScratchFolder;
+using testing::two_layers;
 
 /// Water rises through sand that erodes, and through clay above it, which has fines too but no law.
 ResultsReader two_soils(const ScratchFolder& scratch) {
@@ -28,14 +29,7 @@ ResultsReader two_soils(const ScratchFolder& scratch) {
       "conductivity = 1e-1\n"
       "[[boundary]]\non = \"bottom\"\nhead = 4.0\nconcentration = 0.0\n"
       "[[boundary]]\non = \"top\"\nhead = 2.0\nconcentration = 0.0\n",
-      "Point(1) = {0, 0, 0}; Point(2) = {0.5, 0, 0}; Point(3) = {0.5, 1, 0};\n"
-      "Point(4) = {0, 1, 0}; Point(5) = {0.5, 2, 0}; Point(6) = {0, 2, 0};\n"
-      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
-      "Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 4};\n"
-      "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
-      "Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(2) = {2};\n"
-      "Physical Surface(\"sand\") = {1}; Physical Surface(\"clay\") = {2};\n"
-      "Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {6};\n");
+      two_layers());
 }
 
 /// What has eroded has left, or is in the liquid.

@@ -30,4 +30,16 @@ inline ResultsReader run_programs(const ScratchFolder& scratch, const std::strin
   return ResultsReader(folder);
 }
 
+/// A geometry file: two layers of 1 m, "sand" below "clay", with the boundaries "bottom" and "top".
+inline std::string two_layers() {
+  return "Point(1) = {0, 0, 0}; Point(2) = {0.5, 0, 0}; Point(3) = {0.5, 1, 0};\n"
+         "Point(4) = {0, 1, 0}; Point(5) = {0.5, 2, 0}; Point(6) = {0, 2, 0};\n"
+         "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+         "Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 4};\n"
+         "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+         "Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(2) = {2};\n"
+         "Physical Surface(\"sand\") = {1}; Physical Surface(\"clay\") = {2};\n"
+         "Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {6};\n";
+}
+
 }  // namespace suffuse::testing

@@ -55,8 +55,8 @@ struct RetentionParameter {
   double RetentionParameters::*value = nullptr;
 };
 
-/// A retention law. Its functions are called with psi < 0. They are most of the time of an
-/// iteration in unsaturated soil, so a law finds all that it knows at once.
+/// A retention law. Its functions are called with psi < 0. Much of the time of an iteration in
+/// unsaturated soil goes into them, so `at` finds all that a law knows at once.
 struct RetentionLaw {
   std::string_view word;         ///< value of `model` in a scene
   std::string_view description;  ///< S_e and k_r, for the scene reference
