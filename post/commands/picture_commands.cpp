@@ -131,7 +131,7 @@ void animate(const AnimateOptions& o) {
 
 struct FigureCommandOptions {
   std::string name;
-  std::vector<std::string> arguments;  ///< results folders; for "curves", column names first
+  std::vector<std::string> arguments;  ///< results folders, after the columns of "curves"; a file
   FigureOptions figure;
   std::string time;
   std::string output;
@@ -154,9 +154,10 @@ void declare_figure(CLI::App& command, FigureCommandOptions& o) {
   command
       .add_option("RESULTS", o.arguments,
                   "results folders; before them the columns of \"curves\": COLUMN, "
-                  "TABLE.COLUMN, TABLE.COLUMN:NAME")
+                  "TABLE.COLUMN, TABLE.COLUMN:NAME; of \"slip\" the file of suffuse-solver "
+                  "--mechanism")
       ->required()
-      ->type_name("[COLUMN...] FOLDER...");
+      ->type_name("[COLUMN...] FOLDER...|FILE");
   command
       .add_option("--time", o.time,
                   "of \"flownet\", \"head\" and \"saturation\", s or with its unit, as 2.5d: the "
@@ -198,6 +199,14 @@ void figure(const FigureCommandOptions& o) {
   FigureOptions options = o.figure;
   if (!o.time.empty()) options.time = parse_time(o.time, "suffuse-post figure");
   std::vector<std::string> folders = o.arguments;
+  if (is_of_file(o.name)) {
+    if (folders.size() != 1) {
+      throw InputError(InputProblem{"suffuse-post figure " + o.name, "FILE",
+                                    std::to_string(folders.size()) + " files", "one"});
+    }
+    draw_figure_of_file(o.name, folders.front(), o.output, options);
+    return;
+  }
   if (o.name == "curves") {
     const auto first = std::ranges::find_if(
         folders, [](const std::string& text) { return std::filesystem::is_directory(text); });

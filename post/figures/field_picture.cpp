@@ -409,8 +409,9 @@ void draw_field_picture(const PictureModel& model, const FieldPicture& picture,
       if (has_arrows) {
         const float y = legend_height + 0.5F * legend_row + 6.0F;
         arrows.paint_reference(painter, view.left(), y);
-        paint_text(painter, "flux q, " + digits_text(arrows.reference(), 4) + " m/s", 18,
-                   view.left() + 76.0F, y, Anchor::left);
+        const std::string text = picture.arrow_label + ", " + digits_text(arrows.reference(), 4) +
+                                 " " + picture.arrow_unit;
+        paint_text(painter, text, 18, view.left() + 76.0F, y, Anchor::left);
       }
       if (by_kind) {
         paint_kinds(painter, scale, picture.label, view.left() + view.width() + sheet.gap,

@@ -70,7 +70,9 @@ struct FieldPicture {
   std::vector<OutsideWater> room;  ///< water of all pictures of the run, for a common view
   bool mesh_edges = true;          ///< draw the edges of elements, where these are large
   bool contours = false;           ///< draw lines of equal values at the round values of the bar
-  std::vector<double> arrows;      ///< two components per element, m/s; empty: none
+  std::vector<double> arrows;      ///< two components per element; empty: none
+  std::string arrow_label = "flux q";
+  std::string arrow_unit = "m/s";
   std::vector<double> streamfunction;  ///< at nodes, m2/s; empty: no streamlines
   double tube = 0.0;    ///< discharge between two streamlines, m2/s; in space of each one, m3/s
   double misfit = 0.0;  ///< misfit of the stream function

@@ -14,6 +14,7 @@
 #include "figures/permeameter_figure.hpp"
 #include "figures/profile.hpp"
 #include "figures/seepage_map.hpp"
+#include "figures/slip_figure.hpp"
 #include "figures/soil_figures.hpp"
 #include "figures/table_curves.hpp"
 
@@ -23,21 +24,22 @@ namespace {
 using Runs = std::vector<ResultsReader>;
 using Options = FigureOptions;
 
-/// A figure of `suffuse-post figure`: charts of runs, or a picture of one run.
+/// A figure of `suffuse-post figure`: charts of runs, or a picture of one run or file.
 struct Figure {
   std::string name;
-  std::vector<Chart> (*charts)(const Runs&, const Options&);
-  void (*picture)(const ResultsReader&, const std::string& path, const Options&);
+  std::vector<Chart> (*charts)(const Runs&, const Options&) = nullptr;
+  void (*picture)(const ResultsReader&, const std::string& path, const Options&) = nullptr;
+  void (*of_file)(const std::string& file, const std::string& path) = nullptr;
 };
 
 Figure of_charts(const std::string& name,
                  std::vector<Chart> (*charts)(const Runs&, const Options&)) {
-  return {name, charts, nullptr};
+  return {.name = name, .charts = charts};
 }
 
 Figure of_picture(const std::string& name,
                   void (*picture)(const ResultsReader&, const std::string&, const Options&)) {
-  return {name, nullptr, picture};
+  return {.name = name, .picture = picture};
 }
 
 std::vector<Chart> fines_lost(const Runs& runs, const Options& options) {
@@ -85,6 +87,7 @@ const std::vector<Figure>& figures() {
                  [](const ResultsReader& run, const Path& path, const Options& options) {
                    draw_seepage_map(saturation_map(run, options.time), path);
                  }),
+      {.name = "slip", .of_file = draw_slip},
       of_charts("solid-mass", [](const Runs& runs, const Options&) {
         return std::vector{solid_mass_chart(runs)};
       })};
@@ -144,6 +147,18 @@ std::vector<std::string> figure_names() {
   return names;
 }
 
+bool is_of_file(const std::string& name) {
+  return find_figure(name).of_file != nullptr;
+}
+
+void draw_figure_of_file(const std::string& name, const std::string& file, const std::string& path,
+                         const FigureOptions& options) {
+  const Figure& figure = find_figure(name);
+  if (figure.of_file == nullptr) throw std::logic_error(name + " is of no file");
+  check_options(figure, options);
+  figure.of_file(file, path);
+}
+
 std::vector<Chart> make_figure(const std::string& name, const std::vector<ResultsReader>& runs,
                                const FigureOptions& options) {
   const Figure& figure = find_figure(name);
@@ -166,6 +181,7 @@ void draw_figure(const std::string& name, const std::vector<ResultsReader>& runs
     throw InputError(InputProblem{"suffuse-post figure " + name, "RESULTS",
                                   std::to_string(runs.size()) + " folders", "one"});
   }
+  if (figure.picture == nullptr) throw std::logic_error(name + " is of no run");
   figure.picture(runs.front(), path, options);
 }
 

@@ -183,6 +183,10 @@ class StrengthTable {
     SafetyFactor found =
         find_safety_factor(grid_, soils_, state, options_.failing, options_.threads);
     mechanism_ = std::move(found.mechanism);
+    factor_ = found.factor;
+    time_ = state.time;
+    has_soil_.assign(grid_.mesh.elements.size(), 0.0);
+    for (const int e : state.points.element) has_soil_[e] = 1.0;
     if (found.undecided_node >= 0) return where + ": " + undecided(found, state);
     if (found.holds == 0.0) {
       return where + ": there is no factor of safety: the soil fails, even with " +
@@ -212,10 +216,18 @@ class StrengthTable {
     for (int e = 0; e < grid_.mesh.element_count(); ++e) {
       shear.values.push_back(shear_strain(e) / largest);
     }
+    const std::vector<int>& regions = grid_.mesh.element_region;
+    const Field region{"region", "1", 1, {regions.begin(), regions.end()}, true};
     PendingFile pending(path);
     {
       Hdf5File file(pending.temporary_path(), Hdf5File::Mode::create);
-      write_vtkhdf(file, vtk_grid(grid_.mesh), {.cell = {shear}, .point = {motion}});
+      write_vtkhdf(file, vtk_grid(grid_.mesh),
+                   {.cell = {shear, {"soil", "1", 1, has_soil_, true}, region}, .point = {motion}});
+      write_region_names(file, grid_.mesh.region_names);
+      file.write_texts(layout::region_names, grid_.mesh.region_names);
+      const std::string about = layout::field_data_group;
+      file.write(about + "/factor", std::span(&factor_, 1), {1});
+      file.write(about + "/t", std::span(&time_, 1), {1});
     }
     pending.commit();
   }
@@ -358,6 +370,9 @@ class StrengthTable {
   Grid<Dim> grid_;
   SoilMap<Dim> soils_;
   std::vector<double> mechanism_;  ///< Dim values per node, m
+  std::vector<double> has_soil_;   ///< 1 or 0 per element
+  double factor_ = 0.0;
+  double time_ = 0.0;  ///< s
   std::string text_ = "t,factor,holds,fails,trials,iterations,fines_left,displacement_max\n";
 };
 

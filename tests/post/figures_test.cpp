@@ -32,9 +32,9 @@ TEST(Figures, PngIsDrawnWithoutADisplay) {
   unsetenv("DISPLAY");
   for (const auto& name : figure_names()) {
     // These are tested in model_sketch_test, seepage_map_test, flow_net_test, gradation_figure_test
-    // and table_curves_test.
+    // slip_figure_test and table_curves_test.
     const std::vector<std::string> elsewhere{"model",     "head",   "flownet", "saturation",
-                                             "gradation", "curves", "profile"};
+                                             "gradation", "curves", "profile", "slip"};
     if (std::ranges::find(elsewhere, name) != elsewhere.end()) continue;
     const std::string path = scratch / (name + ".png");
     ::testing::internal::CaptureStderr();

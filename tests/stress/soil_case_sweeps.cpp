@@ -14,6 +14,7 @@ namespace suffuse::stress {
 namespace {
 
 constexpr unsigned runs = 30;
+constexpr unsigned levees = 200;
 
 // --- Factors of safety
 
@@ -67,7 +68,7 @@ Sweep strength_sweep() {
   SweepMaker maker("strength",
                    "factors of safety of unsaturated levees with drains; with another strength "
                    "they are as many times as large");
-  for (unsigned seed = 1; seed <= runs; ++seed) {
+  for (unsigned seed = 1; seed <= levees; ++seed) {
     Random random(seed + 201000);
     const bool drained = drawn_levee(seed).drain > 0.0;
     const double ratio = random.chance(0.5) ? random.between(0.7, 0.95) : random.between(1.05, 1.5);
