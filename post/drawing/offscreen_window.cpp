@@ -3,6 +3,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <vtkObjectFactory.h>
+#include <vtkSmartPointer.h>
 
 #include <array>
 #include <string>
@@ -37,11 +38,11 @@ class EglWindow : public vtkGenericOpenGLRenderWindow {
 };
 vtkStandardNewMacro(EglWindow);
 
-}  // namespace
-
-OffscreenContext::OffscreenContext() {
-  display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) {
+/// Makes a context the current one of the thread, for the rest of the process.
+void make_context() {
+  EGLDisplay display =
+      eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
     refuse("EGL has no surfaceless display");
   }
   constexpr std::array<EGLint, 5> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
@@ -49,26 +50,21 @@ OffscreenContext::OffscreenContext() {
   EGLConfig config = nullptr;
   EGLint count = 0;
   eglBindAPI(EGL_OPENGL_API);
-  if (eglChooseConfig(display_, wanted.data(), &config, 1, &count) == EGL_FALSE || count == 0) {
+  if (eglChooseConfig(display, wanted.data(), &config, 1, &count) == EGL_FALSE || count == 0) {
     refuse("EGL has no configuration for OpenGL");
   }
   constexpr std::array<EGLint, 5> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION,
                                           2, EGL_NONE};
-  context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, version.data());
-  if (context_ == EGL_NO_CONTEXT ||
-      eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
+  EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, version.data());
+  if (context == EGL_NO_CONTEXT ||
+      eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
     refuse("EGL gives no OpenGL 3.2 context");
   }
 }
 
-OffscreenContext::~OffscreenContext() {
-  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  eglDestroyContext(display_, context_);
-  eglTerminate(display_);
-}
-
-vtkSmartPointer<vtkGenericOpenGLRenderWindow> make_offscreen_window(int width, int height) {
-  const auto window = vtkSmartPointer<EglWindow>::New();
+vtkSmartPointer<EglWindow> make_window(int width, int height) {
+  make_context();
+  auto window = vtkSmartPointer<EglWindow>::New();
   window->SetSize(width, height);
   window->SetMultiSamples(8);
   window->SetOffScreenRendering(true);
@@ -76,6 +72,15 @@ vtkSmartPointer<vtkGenericOpenGLRenderWindow> make_offscreen_window(int width, i
   window->SetIsCurrent(true);
   window->OpenGLInit();
   return window;
+}
+
+}  // namespace
+
+vtkGenericOpenGLRenderWindow& offscreen_window(int width, int height) {
+  // Never destroyed: VTK and Mesa may be gone before.
+  static auto* const window = new vtkSmartPointer<EglWindow>(make_window(width, height));
+  (*window)->SetSize(width, height);
+  return **window;
 }
 
 }  // namespace suffuse

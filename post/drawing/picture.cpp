@@ -37,7 +37,6 @@ void write_png(vtkRenderWindow& window, const std::string& path) {
   image->ReadFrontBufferOff();
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName(path.c_str());
-  writer->SetCompressionLevel(9);
   writer->SetInputConnection(image->GetOutputPort());
   writer->Write();
 }
@@ -73,6 +72,22 @@ void expect_end(const std::string& file, const std::string& end, const std::stri
     throw FileError(path + ": could not be written whole; is the disk full?");
   }
 }
+
+/// A renderer in the window for one picture.
+class WindowRenderer {
+ public:
+  explicit WindowRenderer(vtkRenderWindow& window) : window_(window) {
+    window_.AddRenderer(renderer_);
+  }
+  WindowRenderer(const WindowRenderer&) = delete;
+  WindowRenderer& operator=(const WindowRenderer&) = delete;
+  ~WindowRenderer() { window_.RemoveRenderer(renderer_); }
+  [[nodiscard]] vtkRenderer& renderer() const { return *renderer_; }
+
+ private:
+  vtkRenderWindow& window_;
+  vtkNew<vtkRenderer> renderer_;
+};
 
 /// Paints a white background, so that pictures can be read on dark pages.
 void paint_paper(vtkContext2D& painter, int width, int height) {
@@ -125,28 +140,27 @@ void draw_picture(int width, int height, const std::string& title, const std::st
                   const std::function<void(vtkContextScene&)>& fill, const SpaceDrawing* space) {
   const std::string format = picture_format(path);
   PendingFile file(path);
-  const OffscreenContext context;
-  const auto window = make_offscreen_window(width, height);
+  vtkGenericOpenGLRenderWindow& window = offscreen_window(width, height);
   const VtkMessages messages;
 
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1.0, 1.0, 1.0);
-  window->AddRenderer(renderer);
+  const WindowRenderer in_window(window);
+  vtkRenderer& renderer = in_window.renderer();
+  renderer.SetBackground(1.0, 1.0, 1.0);
   vtkNew<vtkContextActor> actor;
   if (space != nullptr) {
-    space->add_to(*renderer, width, height);
+    space->add_to(renderer, width, height);
   } else {
     add_painted(*actor->GetScene(),
                 [&](vtkContext2D& painter) { paint_paper(painter, width, height); });
   }
   fill(*actor->GetScene());
-  actor->GetScene()->SetRenderer(renderer);
-  renderer->AddActor(actor);
-  window->Render();
+  actor->GetScene()->SetRenderer(&renderer);
+  renderer.AddActor(actor);
+  window.Render();
   if (format == ".png") {
-    write_png(*window, file.temporary_path());
+    write_png(window, file.temporary_path());
   } else {
-    write_vector(*window, title, file.temporary_path());
+    write_vector(window, title, file.temporary_path());
     expect_end(file.temporary_path(), format == ".svg" ? "</svg>" : "%%EOF", path);
   }
   messages.throw_errors(path);

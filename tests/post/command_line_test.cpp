@@ -411,7 +411,7 @@ TEST_F(PostCommand, UnknownFigure) {
       "\"comparison\", \"curves\", \"empty-elements\", \"fines-lost\", \"flownet\", \"flux\", "
       "\"gradation\", \"head\", "
       "\"masses\", "
-      "\"model\", \"outflow\", \"porosity\", \"profile\", \"saturation\" or "
+      "\"model\", \"outflow\", \"porosity\", \"profile\", \"saturation\", \"slip\" or "
       "\"solid-mass\"; did you mean "
       "porosity?");
   EXPECT_FALSE(fs::exists(scratch / "f.png"));
