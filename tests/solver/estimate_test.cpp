@@ -235,7 +235,6 @@ TEST(Estimate, LooksAheadInScenesOfManyKinds) {
   const std::vector<std::pair<std::string, std::string>> scenes{
       {"workflows/examples/weir/weir.toml", "0.25"},     // erosion below a weir
       {"workflows/examples/levee/flood.toml", "1.5"},    // breakpoints, seepage faces, retention
-      {"workflows/examples/dam/dam.toml", "1.5"},        // as above, with long times of rest
       {"workflows/laboratory/channel.toml", "25e-3"},    // a drive that grows with the pores
       {"workflows/examples/decades/weir.toml", "0.25"},  // a hundred years from rest
       {"workflows/stress/kill-bank.toml", "0.5"},        // soil that moves

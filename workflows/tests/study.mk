@@ -33,15 +33,19 @@ test: provision
 # Tests that need optimised programs: numbers, pictures and times. All other tests run only with
 # sanitizers; RELEASE_TESTS=all runs them here too.
 release_labels := verification sanitized post timing install ranks
-# These take a third of the time of all; other tests cover their parts. RELEASE_TESTS=all runs them.
+# These take half of the time of all; other tests cover their parts. RELEASE_TESTS=all runs them.
 long_tests := $(addprefix verification_test.,Bank.EndsInItsLastEquilibriumWhereTheSceneSaysSo Consolidation.LargeStrain \
     ErodingOedometer.TheSameWithLiquidPoints ErosionAndDeposition.BalanceInDoublePoint \
+    Footing.OnSoilOf30DegreesCarriesReissnersLoads \
     InfiniteSlope.FailsWhenItsFrictionHasFallenWithItsFines Levee.KeepsItsMassesWhateverHappens \
+    PoissonsRatios/Mandel.PressureInTheMiddleFirstRises/[01] \
     RectangularDam.WithASeepageFaceLetsThroughCharnysDischarge RectangularDam.WithSuctionLetsThroughTheExactDischarge \
-    SpaceBank.GoesOnFromWithinItsSlide Strip.OnSoilWithoutDilationHasAFactorThatTheMeshHardlyChanges \
+    Slope.(HasTheFactorOfGriffithsAndLane|WithItsSurfaceInsideElementsHasThisFactorToo|WithoutDilationHasAFactorSlightlyLower) \
+    SpaceBank.GoesOnFromWithinItsSlide SpaceFooting.SquareCarriesItsPublishedLoad \
+    Strip.OnSoilWithoutDilationHasAFactorThatTheMeshHardlyChanges \
     Trial.IsDecidedInPseudoTimeAsByNewtonsMethod) \
-  $(addprefix verification_of_parts_test.Formulations/ExtrudedScene.TendsToTheSameAsThePlaneOne/,SinglePoint DoublePoint) \
-  solver_process_long_test.Modes/Determinism.StepsEndOnOutputs/moving_soil_implicit \
+  $(addprefix verification_of_parts_test.Formulations/ExtrudedScene.TendsToTheSameAsThePlaneOne/,SinglePoint DoublePoint DoublePointWithLength) \
+  $(addprefix solver_process_long_test.Modes/Determinism.,StepsEndOnOutputs/moving_soil_implicit TwiceTheSameFiles/moving_soil_implicit) \
   $(foreach ranks,4 5,ranks_test_on_$(ranks) same_files_basin_on_$(ranks)) near_files_rest_on_4 same_files_points_on_5
 .PHONY: build-tests test-release
 build-tests: provision
