@@ -41,11 +41,15 @@ TEST_P(Determinism, TwiceTheSameFiles) {
 TEST_P(Determinism, OneAndTwoThreadsGiveTheSameFiles) {
   const bool is_explicit = GetParam().name.find("implicit") == std::string::npos;
   const bool is_double = GetParam().name.starts_with("double");
+  const bool is_moving = GetParam().name.starts_with("moving");
   const std::string end = is_explicit ? "0.004" : "0.4";
   const test::Mode large = test::with(
       GetParam(), "large",
-      {"mesh.size=" + std::string(is_double ? "0.0075" : "0.01"), "soil.specimen.erosion.start=0",
-       "time.end=" + end, "time.step=" + std::string(is_explicit ? "0.0002" : "0.1"),
+      {"mesh.size=" + std::string(is_double   ? "0.0075"
+                                  : is_moving ? "0.014"
+                                              : "0.01"),
+       "soil.specimen.erosion.start=0", "time.end=" + end,
+       "time.step=" + std::string(is_explicit ? "0.0002" : "0.1"),
        "output={every = " + end + ", snapshot_every = " + end + "}", "time.mass_scaling=1e2"});
   test::Mode mode = large;
   if (!is_explicit) mode.sets.pop_back();
