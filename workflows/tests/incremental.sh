@@ -29,9 +29,9 @@ expect_redone() {
 mkdir -p "$work/paper" "$out"
 cp "$workflows/paper/paper-says.csv" "$work/paper"
 for scene in "$workflows"/paper/*.toml; do
-  sed 's/^end .*/end = 4.0/' "$scene" > "$work/paper/$(basename "$scene")"
+  sed 's/^end .*/end = 2.0/' "$scene" > "$work/paper/$(basename "$scene")"
 done
-sed 's/end=120.0/end=4.0/' "$workflows/paper/variants.mk" > "$work/paper/variants.mk"
+sed 's/end=120.0/end=2.0/' "$workflows/paper/variants.mk" > "$work/paper/variants.mk"
 variants=(dp-paper-{12,6,3,1} dp-default-{3,1} dp-no-mass-scaling)
 
 tables=$(printf 'paper/%s.csv\n' runs paper)
@@ -51,7 +51,7 @@ echo '# another text' >> "$work/paper/sp-logarithmic.toml"
 expect_redone 'a change of one scene makes its own files and the figures it is in, and no others' \
   "$(made_from paper/sp-logarithmic; printf '%s\n' "$of_laws" "$tables")" paper
 
-sed -i 's/end=4.0/end=4.5/' "$work/paper/variants.mk"
+sed -i 's/end=2.0/end=2.5/' "$work/paper/variants.mk"
 expect_redone 'a change of one variant makes it, its figure and the tables, and no others' \
   "$(made_by_run paper/dp-no-mass-scaling; printf '%s\n' paper/mass-scaling-flux.{png,svg} "$tables")" paper
 
@@ -63,7 +63,7 @@ rm "$out/paper/sp-constant-table.status"
 sed -i 's/"status": *"done"/"status": "running"/' "$out/paper/sp-constant-table.results/run.json"
 make_well paper
 expect 'a run that did not finish is taken up' paper/sp-constant-table.results/run.json "$(redone "$out" | grep run.json)"
-expect 'and goes on from its last snapshot' 'going on from t = 4' "$(grep -o 'going on from t = [0-9]*' "$log")"
+expect 'and goes on from its last snapshot' 'going on from t = 2' "$(grep -o 'going on from t = [0-9]*' "$log")"
 
 rm "$out/paper/sp-constant-figure.masses.svg"
 expect_redone 'a figure removed is drawn again, alone' paper/sp-constant-figure.masses.svg paper
