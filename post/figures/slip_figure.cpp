@@ -114,7 +114,7 @@ FieldPicture picture_of(const Mechanism& found) {
   for (int e = 0; e < found.mesh.element_count(); ++e) {
     Vector<2> mean = Vector<2>::Zero();
     for (const int node : found.mesh.elements[e]) {
-      mean += Vector<2>(found.motion[2 * node], found.motion[2 * node + 1]) / 3.0;
+      mean += Eigen::Map<const Vector<2>>(&found.motion[2 * static_cast<std::size_t>(node)]) / 3.0;
     }
     if (found.air[e]) mean.setZero();
     picture.arrows.insert(picture.arrows.end(), {mean[0], mean[1]});
