@@ -14,19 +14,32 @@
 
 namespace suffuse::testing {
 
-/// Meshes and solves NAME.toml in `scratch`, with the text of the scene and, if there is one, of
-/// its geometry file NAME.geo.
-inline ResultsReader run_programs(const ScratchFolder& scratch, const std::string& name,
+/// Runs a command of the shell in which PROGRAMS/ is the folder of the programs; it must end well.
+/// `log`: what it printed, for the message.
+inline void run_command(const std::string& command, const std::string& log) {
+  const std::string programs = "PROGRAMS='" + test::program_folder() + "'; ";
+  EXPECT_EQ(std::system((programs + command).c_str()), 0) << file_text(log);
+}
+
+/// Meshes NAME.toml in `scratch`, with the text of the scene and, if there is one, of its geometry
+/// file NAME.geo. Returns the path of the case.
+inline std::string make_case_file(const ScratchFolder& scratch, const std::string& name,
                                   const std::string& scene, const std::string& geometry = {}) {
   if (!geometry.empty()) std::ofstream(scratch / (name + ".geo")) << geometry;
   std::ofstream(scratch / (name + ".toml")) << scene;
-  const std::string programs = test::program_folder() + "/";
   const std::string file = scratch / (name + ".case.h5");
+  const std::string log = scratch / "log";
+  run_command(
+      "$PROGRAMS/suffuse-mesher " + scratch / (name + ".toml") + " -o " + file + " > " + log, log);
+  return file;
+}
+
+/// Meshes and solves a scene, as `make_case_file`.
+inline ResultsReader run_programs(const ScratchFolder& scratch, const std::string& name,
+                                  const std::string& scene, const std::string& geometry = {}) {
+  const std::string file = make_case_file(scratch, name, scene, geometry);
   const std::string folder = scratch / (name + ".results");
-  const std::string commands = programs + "suffuse-mesher " + scratch / (name + ".toml") + " -o " +
-                               file + " > " + scratch / "log" + " && " + programs +
-                               "suffuse-solver " + file + " -o " + folder + " --quiet";
-  EXPECT_EQ(std::system(commands.c_str()), 0) << file_text(scratch / "log");
+  run_command("$PROGRAMS/suffuse-solver " + file + " -o " + folder + " --quiet", scratch / "log");
   return ResultsReader(folder);
 }
 

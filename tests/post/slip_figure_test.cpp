@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "common/errors.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/run_programs.hpp"
@@ -12,7 +10,9 @@ namespace suffuse {
 namespace slip_figure_test {
 
 using testing::file_text;
+using testing::make_case_file;
 using testing::Pixels;
+using testing::run_command;
 using testing::ScratchFolder;
 
 /// A bank of 2 m with a slope of 1:1 on 1 m of ground.
@@ -47,18 +47,14 @@ on = "sides"
 fix = "normal"
 )";
 
-/// Meshes a scene and runs the strength reduction; returns what it says.
+/// Writes the mechanism at the factor of safety; returns what the solver says.
 std::string write_mechanism(const ScratchFolder& scratch) {
-  std::ofstream(scratch / "bank.geo") << bank_geometry;
-  std::ofstream(scratch / "bank.toml") << bank_scene;
-  const std::string programs = test::program_folder() + "/";
-  const std::string commands = programs + "suffuse-mesher " + scratch / "bank.toml" + " -o " +
-                               scratch / "bank.case.h5" + " > /dev/null && " + programs +
-                               "suffuse-solver " + scratch / "bank.case.h5" +
-                               " --strength-reduction --mechanism " + scratch / "slip.hdf" + " > " +
-                               scratch / "factor.csv" + " 2> " + scratch / "log";
-  EXPECT_EQ(std::system(commands.c_str()), 0) << file_text(scratch / "log");
-  return file_text(scratch / "log");
+  const std::string file = make_case_file(scratch, "bank", bank_scene, bank_geometry);
+  const std::string log = scratch / "said";
+  run_command("$PROGRAMS/suffuse-solver " + file + " --strength-reduction --mechanism " +
+                  scratch / "slip.hdf" + " > " + scratch / "factor.csv" + " 2> " + log,
+              log);
+  return file_text(log);
 }
 
 /// "1.92" of "at the start: factor of safety 1.92 (holds at ..."

@@ -85,7 +85,7 @@ endef
 # Checks that take too long for each change.
 .PHONY: nightly
 nightly: provision
-	$(MAKE) test-release RELEASE_TESTS=all
+	SUFFUSE_TEST_CROSSINGS=1e6 $(MAKE) test-release RELEASE_TESTS=all
 	$(MAKE) test-sanitize SANITIZED_TESTS=all
 	$(MAKE) tidy TIDY_SINCE=
 	SECTIONS=200 $(BIN)/solver_test --gtest_filter='DischargeBounds.HoldIn*'
