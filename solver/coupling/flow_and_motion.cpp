@@ -65,6 +65,12 @@ Unsolved not_found(const std::optional<int>& worst_node, const std::string& wors
   return {"flow and motion of the soil do not agree in " + count + ", least in " + worst_element};
 }
 
+Eigen::VectorXd rise_between(const std::vector<double>& before, const std::vector<double>& after) {
+  using Map = Eigen::Map<const Eigen::VectorXd>;
+  const auto count = static_cast<Eigen::Index>(before.size());
+  return Map(after.data(), count) - Map(before.data(), count);
+}
+
 PressureRise rise_of(const Eigen::VectorXd& rose, double dt) {
   PressureRise result{{rose.data(), rose.data() + rose.size()}, dt};
   for (double& rate : result.rate) rate /= dt;
@@ -98,6 +104,8 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const double scale =
       largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
+  // Rise found at faces whose pressure does not act on the soil.
+  Eigen::VectorXd beside = Eigen::VectorXd::Zero(grid_.face_count());
   std::optional<int> worst_node;  // of the last motion without an equilibrium
   int worst_element = 0;
   for (int iteration = 1; iteration <= max_coupling_iterations; ++iteration) {
@@ -119,10 +127,13 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
     const std::vector<double> moved =
         !soils.air_moves() ? motion.face_volume : without_air(motion, air, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
-    forcing.expected_rise.assign(rise.data(), rise.data() + rise.size());
+    const Eigen::VectorXd expected = rise + beside;
+    forcing.expected_rise.assign(expected.data(), expected.data() + expected.size());
     MixedStep<Dim> found = scheme.step(start.state, dt, {&forcing});
-    const Eigen::VectorXd rose =
-        rise_at_soil(start.state.face_pressure, found.end.face_pressure, forcing.mean_storage);
+    const Eigen::VectorXd rose_anywhere =
+        rise_between(start.state.face_pressure, found.end.face_pressure);
+    const Eigen::VectorXd rose = at_soil(rose_anywhere, forcing.mean_storage);
+    beside = rose_anywhere - rose;
     const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
     const double off =
         acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
@@ -222,15 +233,14 @@ Eigen::VectorXd FlowAndMotion<Dim>::at_faces(const Eigen::VectorXd& of_elements,
 }
 
 template <int Dim>
-Eigen::VectorXd FlowAndMotion<Dim>::rise_at_soil(const std::vector<double>& before,
-                                                 const std::vector<double>& after,
-                                                 const std::vector<double>& storage) const {
+Eigen::VectorXd FlowAndMotion<Dim>::at_soil(const Eigen::VectorXd& of_faces,
+                                            const std::vector<double>& storage) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(grid_.face_count());
   for_each_index(grid_.face_count(), threads_, [&](int f) {
     const int right = grid_.face_right[f];
-    const bool at_soil =
-        storage[grid_.face_left[f]] != 0.0 || (right >= 0 && storage[right] != 0.0);
-    if (at_soil) result[f] = after[f] - before[f];
+    if (storage[grid_.face_left[f]] != 0.0 || (right >= 0 && storage[right] != 0.0)) {
+      result[f] = of_faces[f];
+    }
   });
   return result;
 }

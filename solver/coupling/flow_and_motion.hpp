@@ -79,9 +79,9 @@ class FlowAndMotion {
   /// Means of the values of the elements on both sides of a face.
   [[nodiscard]] Eigen::VectorXd at_faces(const Eigen::VectorXd& of_elements,
                                          const std::vector<double>& storage) const;
-  [[nodiscard]] Eigen::VectorXd rise_at_soil(const std::vector<double>& before,
-                                             const std::vector<double>& after,
-                                             const std::vector<double>& storage) const;
+  /// The values at faces where pressures act on the motion, zero at others.
+  [[nodiscard]] Eigen::VectorXd at_soil(const Eigen::VectorXd& of_faces,
+                                        const std::vector<double>& storage) const;
   /// Largest pressure difference that counts as converged, Pa, for the largest rise `rise` and the
   /// largest pressure `pressure`, Pa; in equilibrium never below `floor`.
   [[nodiscard]] double allowed(double rise, double pressure, double floor) const;

@@ -127,7 +127,6 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
   }
   least_force_ = least_strain * std::sqrt(sum);
   dilatation_ = SharedDilatation<Dim>(body.grid, locking_volumes(body, supports, soil_volume_));
-  make_pattern();
 }
 
 template <int Dim>
@@ -159,7 +158,9 @@ void Equilibrium<Dim>::for_each_element(const auto& call) const {
 
 template <int Dim>
 void Equilibrium<Dim>::displace(const NodeVectors<Dim>& displacement, bool with_tangents) {
+  if (displacement == displacement_ && (has_tangents_ || !with_tangents)) return;
   displacement_ = displacement;
+  has_tangents_ = with_tangents;
   if (with_tangents) tangent_.resize(body_.grid.mesh.element_count());
   for_each_element([&](int e) {
     moved_[e] = displacement_gradient(displacement, e);
@@ -178,8 +179,6 @@ void Equilibrium<Dim>::displace(const NodeVectors<Dim>& displacement, bool with_
       if (dilatation_.is_shared(e)) share_stress(spread[e], with_tangents, e);
     });
   }
-  if (pressure_.empty()) return;
-  for_each_element([&](int e) { add_pressure(e, with_tangents); });
 }
 
 template <int Dim>
@@ -280,34 +279,42 @@ void Equilibrium<Dim>::share_tangent(double mu, const Gradient& working, int e) 
   dilatation_.set_tangent(e, shared);
 }
 
-/// - p V_e J F^-T and its derivative: d(J F^-T)_iJ / dF_kL = J (F^-1_Ji F^-1_Lk - F^-1_Jk F^-1_Li).
+/// The stress of the laws and that of the pore water, - p V_e J F^-T.
 template <int Dim>
-void Equilibrium<Dim>::add_pressure(int e, bool with_tangents) {
+auto Equilibrium<Dim>::total_stress(int e) const -> Gradient {
+  if (pressure_.empty()) return stress_[e];
+  return stress_[e] - pressure_at(e) * body_.grid.volume[e] * ratio_[e] * inverse_[e].transpose();
+}
+
+/// With d(J F^-T)_iJ / dF_kL = J (F^-1_Ji F^-1_Lk - F^-1_Jk F^-1_Li).
+template <int Dim>
+auto Equilibrium<Dim>::total_tangent(int e) const -> Tangent {
+  Tangent tangent = tangent_[e];
+  if (pressure_.empty()) return tangent;
   const Gradient& inverse = inverse_[e];
   const double stiffness = stiffness_.empty() ? 0.0 : stiffness_[e];
-  const double pressure = pressure_[e] - stiffness * (ratio_[e] - 1.0);
-  const double factor = -pressure * body_.grid.volume[e] * ratio_[e];
-  stress_[e] += factor * inverse.transpose();
-  if (!with_tangents) return;
+  const double factor = -pressure_at(e) * body_.grid.volume[e] * ratio_[e];
   for (int k = 0; k < Dim; ++k) {
     for (int l = 0; l < Dim; ++l) {
       const Gradient change = inverse.transpose() * inverse(l, k) -
                               inverse.row(l).transpose() * inverse.col(k).transpose();
-      tangent_[e].col(k + Dim * l) += factor * change.reshaped();
+      tangent.col(k + Dim * l) += factor * change.reshaped();
       if (stiffness == 0.0) continue;
       const double growth = stiffness * ratio_[e] * inverse(l, k);
-      tangent_[e].col(k + Dim * l) +=
+      tangent.col(k + Dim * l) +=
           growth * body_.grid.volume[e] * ratio_[e] * inverse.transpose().reshaped();
     }
   }
+  return tangent;
 }
 
 template <int Dim>
 NodeVectors<Dim> Equilibrium<Dim>::forces() const {
   NodeVectors<Dim> result(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
   for (const int e : elements_) {
+    const Gradient stress = total_stress(e);
     for (int a = 0; a <= Dim; ++a) {
-      result[body_.grid.mesh.elements[e][a]] += stress_[e] * body_.grid.shape_gradient[e][a];
+      result[body_.grid.mesh.elements[e][a]] += stress * body_.grid.shape_gradient[e][a];
     }
   }
   for (std::size_t i = 0; i < inertia_.size(); ++i) result[i] += inertia_force(static_cast<int>(i));
@@ -338,9 +345,8 @@ template <int Dim>
 double Equilibrium<Dim>::force_scale() const {
   double sum = 0.0;
   for (const int e : elements_) {
-    for (int a = 0; a <= Dim; ++a) {
-      sum += (stress_[e] * body_.grid.shape_gradient[e][a]).squaredNorm();
-    }
+    const Gradient stress = total_stress(e);
+    for (const Vector<Dim>& g : body_.grid.shape_gradient[e]) sum += (stress * g).squaredNorm();
   }
   return std::sqrt(sum) + least_force_;
 }
@@ -350,7 +356,7 @@ NodeVectors<Dim> Equilibrium<Dim>::tangent_times(const NodeVectors<Dim>& displac
   NodeVectors<Dim> result(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
   for (const int e : elements_) {
     const Eigen::Matrix<double, Dim * Dim, 1> change =
-        tangent_[e] * displacement_gradient(displacement, e).reshaped();
+        total_tangent(e) * displacement_gradient(displacement, e).reshaped();
     const Gradient stress = change.template reshaped<Eigen::AutoOrder>(Dim, Dim);
     for (int a = 0; a <= Dim; ++a) {
       result[body_.grid.mesh.elements[e][a]] += stress * body_.grid.shape_gradient[e][a];
@@ -430,25 +436,22 @@ void Equilibrium<Dim>::make_pattern() {
   dilatation_.add_pattern(unknowns_, entries);
   pattern_.resize(unknowns_.count(), unknowns_.count());
   pattern_.setFromTriplets(entries.begin(), entries.end());
+  dilatation_.find_slots(unknowns_, pattern_);
   slots_.resize(elements_.size());
   for (std::size_t at = 0; at < elements_.size(); ++at) {
     const std::array<int, size> list = unknowns_of(elements_[at]);
     for (int column = 0; column < size; ++column) {
       for (int row = 0; row < size; ++row) {
-        int& slot = slots_[at][column * size + row];
-        slot = -1;
-        if (list[row] < 0 || list[column] < 0) continue;
-        const int* const rows = pattern_.innerIndexPtr();
-        const int* const first = rows + pattern_.outerIndexPtr()[list[column]];
-        const int* const last = rows + pattern_.outerIndexPtr()[list[column] + 1];
-        slot = static_cast<int>(std::lower_bound(first, last, list[row]) - rows);
+        const bool is_free = list[row] >= 0 && list[column] >= 0;
+        slots_[at][column * size + row] = is_free ? slot_of(pattern_, list[row], list[column]) : -1;
       }
     }
   }
 }
 
 template <int Dim>
-void Equilibrium<Dim>::scatter(const auto& tangent_of, Eigen::SparseMatrix<double>& matrix) const {
+void Equilibrium<Dim>::scatter(const auto& tangent_of, Eigen::SparseMatrix<double>& matrix) {
+  if (slots_.empty()) make_pattern();
   matrix = pattern_;
   double* const values = matrix.valuePtr();
   for (std::size_t at = 0; at < elements_.size(); ++at) {
@@ -472,13 +475,13 @@ void Equilibrium<Dim>::add_inertia(Eigen::SparseMatrix<double>& matrix) const {
 }
 
 template <int Dim>
-void Equilibrium<Dim>::assemble(Eigen::SparseMatrix<double>& tangent) const {
-  scatter([&](int e) -> const Tangent& { return tangent_[e]; }, tangent);
+void Equilibrium<Dim>::assemble(Eigen::SparseMatrix<double>& tangent) {
+  scatter([&](int e) { return total_tangent(e); }, tangent);
   dilatation_.add_tangent(unknowns_, mean_ratio_, tangent);
 }
 
 template <int Dim>
-void Equilibrium<Dim>::assemble_elastic(Eigen::SparseMatrix<double>& stiffness) const {
+void Equilibrium<Dim>::assemble_elastic(Eigen::SparseMatrix<double>& stiffness) {
   scatter([&](int e) { return elastic_tangent(e); }, stiffness);
 }
 

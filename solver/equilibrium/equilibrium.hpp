@@ -81,8 +81,10 @@ class Equilibrium {
   /// Whether a displacement leaves each element with soil more than `min_ratio` of its volume.
   [[nodiscard]] bool is_possible(const NodeVectors<Dim>& displacement) const;
   /// Sets the displacement over the step, m, which must be possible. Tangents cost more than
-  /// forces; `assemble` needs them.
+  /// forces; `assemble` needs them. The last displacement costs nothing.
   void displace(const NodeVectors<Dim>& displacement, bool with_tangents);
+  /// To be called after the stress of the points has changed.
+  void forget_displacement() { displacement_.clear(); }
 
   /// Forces of the solid and its pore water on the nodes, N.
   [[nodiscard]] NodeVectors<Dim> forces() const;
@@ -93,15 +95,13 @@ class Equilibrium {
   [[nodiscard]] double force_scale() const;
   /// Increments that laws see at a possible displacement, m.
   [[nodiscard]] Increments<Dim> law_increments(const NodeVectors<Dim>& displacement) const;
-  /// Sets the derivative of the forces by the unknowns, N/m, in the pattern of `pattern()`.
-  void assemble(Eigen::SparseMatrix<double>& tangent) const;
+  /// Sets the derivative of the forces by the unknowns, N/m. Its pattern is always the same.
+  void assemble(Eigen::SparseMatrix<double>& tangent);
   /// The derivative times a displacement, N.
   [[nodiscard]] NodeVectors<Dim> tangent_times(const NodeVectors<Dim>& displacement) const;
   /// The elastic stiffness of this body without stress. It is symmetric and, where the soil is
   /// held, positive definite, so that its factor serves as a preconditioner.
-  void assemble_elastic(Eigen::SparseMatrix<double>& stiffness) const;
-  /// A matrix of the unknowns with entries for both; its values are zero.
-  [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
+  void assemble_elastic(Eigen::SparseMatrix<double>& stiffness);
 
   /// Mean effective stress sigma' of an element with soil, after the displacement, Pa; tension is
   /// positive. In two dimensions, the part in the plane. In a patch, the one that is in balance.
@@ -139,14 +139,19 @@ class Equilibrium {
   /// `SharedDilatation::spread` gives it, Pa m3.
   void share_stress(double spread, bool with_tangents, int element);
   void share_tangent(double mu, const Gradient& working, int element);
-  void add_pressure(int element, bool with_tangents);
+  /// Pore pressure of an element at its present volume, Pa.
+  [[nodiscard]] double pressure_at(int e) const {
+    return pressure_[e] - (stiffness_.empty() ? 0.0 : stiffness_[e] * (ratio_[e] - 1.0));
+  }
+  [[nodiscard]] Gradient total_stress(int element) const;
+  [[nodiscard]] Tangent total_tangent(int element) const;
   [[nodiscard]] ElementMatrix element_matrix(int element, const Tangent& tangent) const;
   [[nodiscard]] Vector<Dim> inertia_force(int node) const {
     return inertia_[node] * (displacement_[node] - coasting_[node]);
   }
   void add_inertia(Eigen::SparseMatrix<double>& matrix) const;
   void make_pattern();
-  void scatter(const auto& tangent_of, Eigen::SparseMatrix<double>& matrix) const;
+  void scatter(const auto& tangent_of, Eigen::SparseMatrix<double>& matrix);
 
   SolidBody<Dim> body_;
   int threads_;
@@ -157,18 +162,19 @@ class Equilibrium {
   std::vector<double> inertia_;    ///< M/dt^2 per node, N/m; empty: none
   NodeVectors<Dim> coasting_;      ///< dt v* per node, m
   NodeVectors<Dim> displacement_;  ///< the last displacement, m
+  bool has_tangents_ = false;      ///< whether tangents are those of `displacement_`
   double least_force_ = 0.0;       ///< part of `force_scale`, N
   std::vector<double> soft_;       ///< per element: stiffness against grad du, Pa m3
   SharedDilatation<Dim> dilatation_;
-  std::vector<Gradient> moved_;      ///< grad du per element
-  std::vector<Gradient> inverse_;    ///< F^-1 per element
-  std::vector<double> ratio_;        ///< det F per element
-  std::vector<double> mean_ratio_;   ///< that laws see
-  std::vector<Gradient> stress_;     ///< V_e P per element, Pa m3
-  std::vector<Gradient> effective_;  ///< V_e J sigma' per element, Pa m3
-  std::vector<double> soil_volume_;  ///< per element, m3
-  std::vector<Tangent> tangent_;     ///< derivative of `stress_` by F
-  Eigen::SparseMatrix<double> pattern_;
+  std::vector<Gradient> moved_;          ///< grad du per element
+  std::vector<Gradient> inverse_;        ///< F^-1 per element
+  std::vector<double> ratio_;            ///< det F per element
+  std::vector<double> mean_ratio_;       ///< that laws see
+  std::vector<Gradient> stress_;         ///< V_e P of the laws per element, Pa m3
+  std::vector<Gradient> effective_;      ///< V_e J sigma' per element, Pa m3
+  std::vector<double> soil_volume_;      ///< per element, m3
+  std::vector<Tangent> tangent_;         ///< derivative of `stress_` by F
+  Eigen::SparseMatrix<double> pattern_;  ///< set when a matrix is first needed
   /// Per element with points: index of each entry of its matrix in `pattern_`, or -1.
   std::vector<std::array<int, ElementMatrix::SizeAtCompileTime>> slots_;
 };

@@ -6,6 +6,13 @@
 
 namespace suffuse {
 
+int slot_of(const Eigen::SparseMatrix<double>& matrix, int row, int column) {
+  const int* const rows = matrix.innerIndexPtr();
+  const int* const first = rows + matrix.outerIndexPtr()[column];
+  const int* const last = rows + matrix.outerIndexPtr()[column + 1];
+  return static_cast<int>(std::lower_bound(first, last, row) - rows);
+}
+
 template <int Dim>
 SharedDilatation<Dim>::SharedDilatation(const Grid<Dim>& grid, const std::vector<double>& weight) {
   if (std::ranges::none_of(weight, [](double w) { return w > 0.0; })) return;
@@ -64,14 +71,32 @@ std::vector<double> SharedDilatation<Dim>::spread(const std::vector<double>& mea
 template <int Dim>
 void SharedDilatation<Dim>::add_pattern(const DisplacementUnknowns<Dim>& unknowns,
                                         std::vector<Eigen::Triplet<double>>& entries) const {
-  std::vector<int> of_patch;
   for (const Patch& patch : patches_) {
-    of_patch.clear();
-    for (const int i : patch.nodes) {
-      for (int k = 0; k < unknowns.count(i); ++k) of_patch.push_back(unknowns.first(i) + k);
+    const std::vector<int> list = unknowns_of(patch, unknowns);
+    for (const int column : list) {
+      for (const int row : list) entries.emplace_back(row, column, 0.0);
     }
-    for (const int column : of_patch) {
-      for (const int row : of_patch) entries.emplace_back(row, column, 0.0);
+  }
+}
+
+template <int Dim>
+std::vector<int> SharedDilatation<Dim>::unknowns_of(const Patch& patch,
+                                                    const DisplacementUnknowns<Dim>& unknowns) {
+  std::vector<int> result;
+  for (const int i : patch.nodes) {
+    for (int k = 0; k < unknowns.count(i); ++k) result.push_back(unknowns.first(i) + k);
+  }
+  return result;
+}
+
+template <int Dim>
+void SharedDilatation<Dim>::find_slots(const DisplacementUnknowns<Dim>& unknowns,
+                                       const Eigen::SparseMatrix<double>& pattern) {
+  for (Patch& patch : patches_) {
+    patch.slots.clear();
+    const std::vector<int> list = unknowns_of(patch, unknowns);
+    for (const int column : list) {
+      for (const int row : list) patch.slots.push_back(slot_of(pattern, row, column));
     }
   }
 }
@@ -82,9 +107,9 @@ template <int Dim>
 void SharedDilatation<Dim>::add_tangent(const DisplacementUnknowns<Dim>& unknowns,
                                         const std::vector<double>& mean_ratio,
                                         Eigen::SparseMatrix<double>& matrix) const {
+  Eigen::MatrixXd vectors;  // r, f, q
   for (const Patch& patch : patches_) {
-    std::vector<int> of_patch;
-    Eigen::MatrixXd vectors = Eigen::MatrixXd::Zero(Dim * patch.nodes.size(), 3);  // r, f, q
+    vectors.setZero(Dim * static_cast<Eigen::Index>(patch.nodes.size()), 3);
     double both = 0.0;
     const double ratio = mean_ratio[patch.elements.front()];
     for (std::size_t k = 0; k < patch.elements.size(); ++k) {
@@ -103,14 +128,12 @@ void SharedDilatation<Dim>::add_tangent(const DisplacementUnknowns<Dim>& unknown
       const int i = patch.nodes[at];
       const Eigen::Matrix<double, Dim, 3> along =
           unknowns.supports().directions(i).transpose() * vectors.middleRows<Dim>(Dim * at);
-      for (int k = 0; k < unknowns.count(i); ++k) {
-        of_patch.push_back(unknowns.first(i) + k);
-        vectors.row(count++) = along.row(k);
-      }
+      for (int k = 0; k < unknowns.count(i); ++k) vectors.row(count++) = along.row(k);
     }
+    auto slot = patch.slots.begin();
     for (int column = 0; column < count; ++column) {
       for (int row = 0; row < count; ++row) {
-        matrix.coeffRef(of_patch[row], of_patch[column]) +=
+        matrix.valuePtr()[*slot++] +=
             vectors(row, 1) * vectors(column, 0) + vectors(row, 0) * vectors(column, 2);
       }
     }

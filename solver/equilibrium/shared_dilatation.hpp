@@ -9,6 +9,9 @@
 
 namespace suffuse {
 
+/// Index of an entry of the matrix among its values.
+int slot_of(const Eigen::SparseMatrix<double>& matrix, int row, int column);
+
 /// Soil that keeps its volume, or whose plastic flow prescribes its change of volume, is too stiff
 /// on triangles and tetrahedra with linear displacements: there are more elements, each with a
 /// condition on its volume, than displacements. So neighbours are joined to patches, most of two
@@ -49,7 +52,10 @@ class SharedDilatation {
   /// Appends the entries of the unknowns that patches couple.
   void add_pattern(const DisplacementUnknowns<Dim>& unknowns,
                    std::vector<Eigen::Triplet<double>>& entries) const;
-  /// Adds the derivative of the forces by the shared ratios to a matrix with these entries.
+  /// Finds these entries in the pattern of the matrices.
+  void find_slots(const DisplacementUnknowns<Dim>& unknowns,
+                  const Eigen::SparseMatrix<double>& pattern);
+  /// Adds the derivative of the forces by the shared ratios to a matrix of this pattern.
   /// \param mean_ratio  Jm per element
   void add_tangent(const DisplacementUnknowns<Dim>& unknowns, const std::vector<double>& mean_ratio,
                    Eigen::SparseMatrix<double>& matrix) const;
@@ -63,7 +69,11 @@ class SharedDilatation {
     std::vector<int> elements;
     std::vector<int> nodes;
     std::vector<std::array<int, Dim + 1>> places;
+    std::vector<int> slots;  ///< of pairs of its unknowns in a matrix, column by column
   };
+
+  [[nodiscard]] static std::vector<int> unknowns_of(const Patch& patch,
+                                                    const DisplacementUnknowns<Dim>& unknowns);
 
   void add_patch(const Mesh<Dim>& mesh, const std::vector<double>& weight,
                  const std::vector<int>& elements);

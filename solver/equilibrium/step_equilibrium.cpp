@@ -29,6 +29,7 @@ void StepEquilibrium<Dim>::set_inertia(const NodalMotion<Dim>& nodes, double dur
 template <int Dim>
 void StepEquilibrium<Dim>::restart() {
   displacement_.assign(grid_.mesh.node_count(), Vector<Dim>::Zero());
+  equilibrium_.forget_displacement();
   equilibrium_.displace(displacement_, false);
   start_stress_.assign(grid_.mesh.element_count(), Eigen::Matrix<double, Dim, Dim>::Zero());
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {

@@ -45,9 +45,10 @@ struct FlowForcing {
   /// Additional storage per element, acting on its mean pressure, m3/Pa. Empty: none.
   std::vector<double> mean_storage = {};
   /// Additional mobility per element from the soil's inertia, m3 s/kg. It multiplies the difference
-  /// between two pressure gradients: the one expected, after `expected_rise` (per face, Pa) from
-  /// the start of the step, and the actual one. Empty: none; not with quadratic drag.
+  /// between two pressure gradients: the one after `expected_rise` and the actual one. Empty: none;
+  /// not with quadratic drag.
   std::vector<double> mean_mobility = {};
+  /// Expected in the step, per face, Pa. Where soil retains liquid, iterations start from it.
   std::vector<double> expected_rise = {};
   /// Force on the liquid in addition to its weight, per element, N/m3. Empty: none.
   VectorField<Dim> force = {};

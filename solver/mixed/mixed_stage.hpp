@@ -242,12 +242,15 @@ struct MixedStage {
     }
   }
   void guess_pressure(const std::vector<double>& rise_rate) {
-    const bool follows = !is_steady() && !retains;
+    const auto expected = [&](int f) {
+      if (is_steady() || (retains && forcing.expected_rise.empty())) return 0.0;
+      return retains ? forcing.expected_rise[f] : rise_rate[f] * duration;
+    };
     pressure.reference = base.face_pressure;
     pressure.offset.assign(base.face_pressure.size(), 0.0);
     pressure.rise.resize(base.face_pressure.size());
     for_each_face([&](int f) {
-      pressure.rise[f] = follows ? rise_rate[f] * duration : 0.0;
+      pressure.rise[f] = expected(f);
       if (faces.is_held(f)) pressure.rise[f] = faces.condition(f).value - base.face_pressure[f];
     });
   }
