@@ -19,6 +19,12 @@ constexpr int max_step_iterations = 8;
 constexpr double good_iterations = 4.0;
 /// Lengths of consecutive steps differ by this factor at most.
 constexpr double growth = 4.0;
+/// The motion decides if the second half of the iterations lasts at least this long: in that time
+/// a force of 1e-4 of the loads moves soil by a tenth of its elastic displacement.
+constexpr double long_enough = 1000.0;
+/// Soil whose speed in the last quarter is at least this share of that in the third does not slow
+/// down.
+constexpr double constant_speed = 0.75;
 /// Most halvings of Newton's step; beyond that a shorter step is better.
 constexpr int max_step_halvings = 6;
 /// The defect must fall by this share of the linear model's prediction (Armijo's rule).
@@ -39,19 +45,26 @@ SettledSoil<Dim> PseudoTime<Dim>::settle(NodeVectors<Dim> start, const SettlingL
   soil_.displacement = std::move(start);
   soil_.motion.assign(loads_.size(), Vector<Dim>::Zero());
   length_ = first_length;
-  last_length_ = 0.0;
+  last_length_ = time_ = 0.0;
+  samples_.clear();
   equilibrium_.displace(soil_.displacement, true);
   judge(limits);
   while (soil_.end == Settling::undecided && length_ >= least_length &&
          soil_.iterations < limits.max_iterations) {
     if (step(limits.max_iterations - soil_.iterations)) {
       judge(limits);
+      time_ += last_length_;
+      const double sampled = 0.5 + 0.25 * static_cast<double>(samples_.size());
+      if (samples_.size() < 2 && soil_.iterations >= sampled * limits.max_iterations) {
+        samples_.push_back({time_, soil_.displacement});
+      }
       length_ *= std::min(good_iterations / std::max(step_iterations_, 1), growth);
     } else {
       equilibrium_.displace(soil_.displacement, true);
       length_ *= 0.5;
     }
   }
+  if (soil_.end == Settling::undecided && samples_.size() == 2) judge_motion(limits);
   return soil_;
 }
 
@@ -149,6 +162,26 @@ void PseudoTime<Dim>::judge(const SettlingLimits& limits) {
     soil_.end = Settling::rests;
   }
   soil_.worst_node = equilibrium_.unknowns().longest(unbalanced_);
+}
+
+template <int Dim>
+void PseudoTime<Dim>::judge_motion(const SettlingLimits& limits) {
+  const auto moved = [&](const Sample& from, const Sample& to) {
+    NodeVectors<Dim> way = to.displacement;
+    for (std::size_t i = 0; i < way.size(); ++i) way[i] -= from.displacement[i];
+    return largest_length<Dim>(way, limits.loose);
+  };
+  const Sample& first = samples_.front();
+  const Sample& middle = samples_.back();
+  const Sample last{time_, soil_.displacement};
+  if (limits.still == 0.0 || last.time - first.time < long_enough) return;
+  const double early = moved(first, middle) / (middle.time - first.time);
+  const double late = moved(middle, last) / (last.time - middle.time);
+  if (moved(first, last) <= limits.still) {
+    soil_.end = Settling::rests;
+  } else if (late >= constant_speed * early) {
+    soil_.end = Settling::runs_away;
+  }
 }
 
 template class PseudoTime<2>;

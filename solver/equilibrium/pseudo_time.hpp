@@ -21,6 +21,9 @@ struct SettlingLimits {
   double tolerance = 1e-9;
   /// Displacement that counts as running away, m.
   double far = 0.0;
+  /// Displacement in the second half of the iterations, m, up to which soil counts as at rest when
+  /// they end; soil that moved farther and did not slow down runs away. 0: it is not judged so.
+  double still = 0.0;
   /// Per node: whether hardly any soil holds it, so that its displacement does not count; empty:
   /// all nodes count.
   std::vector<char> loose = {};
@@ -58,7 +61,9 @@ struct SettledSoil {
 /// perfectly plastic body with associated flow this is the path of steepest descent of a convex
 /// energy: it ends at an equilibrium if there is one; otherwise the forces that no stress can
 /// balance make displacements grow in proportion to t. Soil without associated flow has no such
-/// energy, but trials show the same two ends.
+/// energy, but trials show the same two ends. Its forces may go on to alternate about a state that
+/// they do not leave, or its steps remain short: the motion in the second half of the iterations
+/// then decides.
 template <int Dim>
 class PseudoTime {
  public:
@@ -78,18 +83,28 @@ class PseudoTime {
   bool step(int max_iterations);
   bool improve(Eigen::VectorXd& defect);
   void judge(const SettlingLimits& limits);
+  /// Judges by the motion over the second half of the iterations.
+  void judge_motion(const SettlingLimits& limits);
+
+  /// A state on the way.
+  struct Sample {
+    double time = 0.0;
+    NodeVectors<Dim> displacement;  ///< m
+  };
 
   Equilibrium<Dim>& equilibrium_;
   const NodeVectors<Dim>& loads_;
   NewtonSystem system_;
   Eigen::SparseMatrix<double> elastic_;
   Eigen::SparseMatrix<double> matrix_;
-  SettledSoil<Dim> soil_;       ///< at the end of the last step
-  NodeVectors<Dim> trial_;      ///< displacement in the iterations of a step, m
-  Eigen::VectorXd unbalanced_;  ///< forces at the start of the step
-  double length_ = 1.0;         ///< of the step, in pseudo-time
-  double last_length_ = 0.0;    ///< of the last step; 0: none
-  int step_iterations_ = 0;     ///< of the step
+  SettledSoil<Dim> soil_;        ///< at the end of the last step
+  NodeVectors<Dim> trial_;       ///< displacement in the iterations of a step, m
+  Eigen::VectorXd unbalanced_;   ///< forces at the start of the step
+  double length_ = 1.0;          ///< of the step, in pseudo-time
+  double last_length_ = 0.0;     ///< of the last step; 0: none
+  double time_ = 0.0;            ///< since the start
+  std::vector<Sample> samples_;  ///< after a half and three quarters of the iterations
+  int step_iterations_ = 0;      ///< of the step
 };
 
 }  // namespace suffuse

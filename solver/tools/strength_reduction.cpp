@@ -17,6 +17,9 @@ constexpr double elastic_displacement = 1e-5;
 /// `soft_share` in trials: they apply all loads in one step, in which partially filled elements
 /// must not carry loads that the soil cannot.
 constexpr double soft_in_trials = 1e-6;
+/// Displacement that counts as none when the iterations of a trial end, over that of the elastic
+/// body.
+constexpr double still_share = 0.1;
 /// Elastic displacement, over its mean weighted by loads, beyond which hardly any soil holds a
 /// node. With moved soil this happens where one point has just entered an empty element.
 constexpr double loose_displacement = 100.0;
@@ -97,6 +100,7 @@ class StrengthReduction {
       soil = PseudoTime<Dim>(equilibrium, loads_)
                  .settle(held_, {.tolerance = limits_.newton.tolerance,
                                  .far = far,
+                                 .still = still_share * elastic_max_,
                                  .loose = loose_,
                                  .max_iterations = limits_.settling_iterations});
       soil.iterations += solution.iterations();

@@ -27,11 +27,11 @@ struct StrengthReductionLimits {
   int most_undecided = 3;
 };
 
-/// End of a trial. If iterations run out it is undecided: soil need not fail because Newton's
-/// method finds no equilibrium.
+/// End of a trial. If iterations run out, the motion may decide (`SettlingLimits::still`): soil
+/// need not fail because Newton's method finds no equilibrium.
 enum class TrialEnd {
-  holds,     ///< forces balance
-  fails,     ///< displacements ran away
+  holds,     ///< forces balance, or the soil keeps its place
+  fails,     ///< displacements ran away, or grow at a constant speed
   undecided  ///< neither
 };
 

@@ -286,6 +286,29 @@ TEST(PseudoTime, MovesSoilThatFailsAtAConstantSpeed) {
   EXPECT_GT(far.residual, 1e-9);  // the tolerance of soil at rest
 }
 
+/// How 60 iterations end that neither balance the forces nor move the soil far enough.
+Settling end_by_motion(double factor, double still) {
+  SlopeTwoToOne m(8, mohr_coulomb_soil(20.0, 0.05 * unit_weight, 0.0));
+  for (PointSkeleton& point : m.skeleton) {
+    point.parameters = reduced_strength(point.parameters, factor);
+    point.parameters.young *= 1e6;
+  }
+  const Supports<2> supports(m.grid, m.face_support);
+  Equilibrium<2> equilibrium(m.body(), supports, 1);
+  const NodeVectors<2> loads = m.weight(unit_weight);
+  PseudoTime<2> time(equilibrium, loads);
+  const SettlingLimits limits{.tolerance = 0.0, .far = 1.0, .still = still, .max_iterations = 60};
+  return time.settle(m.no_loads(), limits).end;
+}
+
+TEST(PseudoTime, DecidesByTheMotionWhenItsIterationsEnd) {
+  constexpr double tenth_of_elastic = 7e-12;  // m
+  EXPECT_EQ(end_by_motion(1.5, tenth_of_elastic), Settling::runs_away);
+  EXPECT_EQ(end_by_motion(1.5, 1e-6), Settling::rests) << "it moves by 5e-9 m";
+  EXPECT_EQ(end_by_motion(1.5, 0.0), Settling::undecided) << "no motion counts as rest";
+  EXPECT_EQ(end_by_motion(1.3, tenth_of_elastic), Settling::undecided) << "its time is short";
+}
+
 /// A vertical cut of height 1 m; the soil behind it and below it has the same extent.
 struct VerticalCut : PlaneModel {
   VerticalCut(int cells, const SkeletonModel& soil) : PlaneModel(mesh_of(cells), 1, soil) {

@@ -38,3 +38,10 @@ bench: provision
 	@for name in $(bench_programs); do \
 	   ../build/release/bin/$${name}_bench --benchmark_out=$(OUT)/bench/$$name.json --benchmark_out_format=json \
 	     --benchmark_repetitions=3 --benchmark_report_aggregates_only=true --benchmark_min_time=0.2; done
+
+# Takes minutes. The runs are timed: nothing else should run beside them.
+.PHONY: motion
+motion: $(mesher) $(solver)
+	@mkdir -p $(OUT)/motion
+	@$(PYTHON) scaling/study.py motion $(BIN) $(OUT)/motion | tee $(OUT)/motion/motion.md
+	@$(call document,motion,../docs/evidence/accuracy.md)

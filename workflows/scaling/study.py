@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""The cost of each stage of the pipeline for columns of any size, and what two ranks gain.
+"""The cost of each stage of the pipeline for columns of any size, what soil that moves costs, and what two ranks gain.
 
     study.py measure PROGRAMS MODE-ELEMENTS-THREADS STEM    writes STEM.csv, a header and one line
     study.py report FILE.csv...                             prints the tables of the document
+    study.py motion PROGRAMS OUT                            prints the table of soil that moves
     study.py ranks PROGRAMS SCENE.toml OUT                  prints the table of ranks: linear systems of the flow of up to a
                                                             million faces, the bandwidth of the machine, whole explicit steps
 
@@ -115,6 +116,40 @@ def report(*files):
     print(markdown(["mode", "elements", "points", "steps", "mesher", "solver", "of it steps", "ledger", "picture", "case, MB"], lines), end="")
 
 
+# --- Soil that moves ---------------------------------------------------------------------------------------
+
+TESTS = here.parent.parent / "tests" / "cases"
+EXAMPLES = here.parent / "examples"
+RUNS = [
+    *((f"dry sand runs out, {cells} elements over its width, to its rest", TESTS / "sand-column.toml", [f"mesh.size={1 / cells}"]) for cells in (8, 16)),
+    ("a levee loses fines, fails, slides and rests", EXAMPLES / "slide" / "slide.toml", []),
+]
+SLOPES = (1.0, 0.5, 0.25)
+
+
+def motion(programs, out):
+    programs, case, results = pathlib.Path(programs), f"{out}/motion.case.h5", f"{out}/motion.results"
+    mesh = lambda scene, changes: call(programs / "suffuse-mesher", scene, *set_options(changes), "-o", case)
+    lines = []
+    for name, scene, changes in RUNS:
+        mesh(scene, changes)
+        call(programs / "suffuse-solver", case, "-o", results, "--force", "--threads", 1, "--quiet")
+        run = run_json(results)
+        points, seconds = int(run["solid_points"]), float(run["wall_seconds"])
+        lines.append([name, run["elements"], points, run["steps"], read_rows(f"{results}/history.csv")[-1]["newton_iterations"], f"{seconds:.3g}",
+                      f"{1e6 * seconds / points / int(run['steps']):.3g}", f"{int(run['memory_bytes']) / points:.0f}"])
+        shutil.rmtree(results)
+    print(markdown(["run", "elements", "points", "steps", "iterations", "s", "µs per point and step", "bytes per point"], lines))
+    lines = []
+    for size in SLOPES:
+        mesh(EXAMPLES / "slope" / "slope.toml", [f"mesh.size={size}", "mesh.structure=crossed"])
+        seconds, _ = timed(programs / "suffuse-solver", case, "--strength-reduction", "--threads", 1, "--quiet", "-o", f"{out}/factor.csv")
+        found = read_rows(f"{out}/factor.csv")[-1]
+        lines.append([f"{size} m", f"{float(found['factor']):.3f}", found["trials"], found["iterations"], f"{seconds:.3g}"])
+    print(markdown(["slope, elements of", "factor", "trials", "iterations", "s"], lines), end="")
+    os.unlink(case)
+
+
 # --- Ranks -------------------------------------------------------------------------------------------------
 
 
@@ -146,4 +181,4 @@ def ranks(programs, scene, out):
 
 
 if __name__ == "__main__":
-    {"measure": measure, "report": report, "ranks": ranks}[sys.argv[1]](*sys.argv[2:])
+    {"measure": measure, "report": report, "motion": motion, "ranks": ranks}[sys.argv[1]](*sys.argv[2:])
