@@ -41,9 +41,11 @@ std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
            " m and t = " + time_text(least.time, unit);
   };
   const LeastSafety* exit = numbers.least_safety_at_exits();
-  std::string text = exit == nullptr ? "Water rises at no boundary that it leaves through. "
-                                     : "The least safety against heave where water leaves is " +
-                                           place(*exit) + ". ";
+  std::string text = exit == nullptr
+                         ? "Water rises at no boundary that it leaves through. "
+                         : "The least safety against heave where water leaves is " + place(*exit) +
+                               ". It is that of one element: beside the corner of a "
+                               "structure it falls with the size of elements. ";
   const auto& anywhere = numbers.safety.front().least;
   if (anywhere && anywhere->safety < 1.0) {
     text += "In all soil it is " + place(*anywhere) +
