@@ -19,9 +19,9 @@ constexpr int max_step_iterations = 8;
 constexpr double good_iterations = 4.0;
 /// Lengths of consecutive steps differ by this factor at most.
 constexpr double growth = 4.0;
-/// The motion decides if the second half of the iterations lasts at least this long: in that time
-/// a force of 1e-4 of the loads moves soil by a tenth of its elastic displacement.
-constexpr double long_enough = 1000.0;
+/// The motion decides if the last two quarters of the iterations last at least this long each: in
+/// both together a force of 1e-4 of the loads moves soil by a tenth of its elastic displacement.
+constexpr double long_enough = 500.0;
 /// Soil whose speed in the last quarter is at least this share of that in the third does not slow
 /// down.
 constexpr double constant_speed = 0.75;
@@ -174,9 +174,11 @@ void PseudoTime<Dim>::judge_motion(const SettlingLimits& limits) {
   const Sample& first = samples_.front();
   const Sample& middle = samples_.back();
   const Sample last{time_, soil_.displacement};
-  if (limits.still == 0.0 || last.time - first.time < long_enough) return;
-  const double early = moved(first, middle) / (middle.time - first.time);
-  const double late = moved(middle, last) / (last.time - middle.time);
+  const double third_quarter = middle.time - first.time;
+  const double last_quarter = last.time - middle.time;
+  if (limits.still == 0.0 || std::min(third_quarter, last_quarter) < long_enough) return;
+  const double early = moved(first, middle) / third_quarter;
+  const double late = moved(middle, last) / last_quarter;
   if (moved(first, last) <= limits.still) {
     soil_.end = Settling::rests;
   } else if (late >= constant_speed * early) {

@@ -46,6 +46,9 @@ class InertialMotion {
 
   [[nodiscard]] PointVelocities<Dim>& velocities() { return velocities_; }
   [[nodiscard]] const PointVelocities<Dim>& velocities() const { return velocities_; }
+  /// Rate of shear sqrt(2 D:D) of each point in the last step, with the deviator D of the rate of
+  /// deformation, 1/s; empty before the first.
+  [[nodiscard]] const std::vector<double>& shear_rate() const { return shear_rate_; }
 
   /// Moves the points by one step of at most `longest` seconds. Throws NumericalError if no step is
   /// short enough, or if a point leaves the mesh.
@@ -61,12 +64,15 @@ class InertialMotion {
   [[nodiscard]] double first_try(const PointsByElement& sorted, const NodalMotion<Dim>& nodes,
                                  double longest) const;
   void plan_next(const InertialStep& step);
+  void find_shear_rates(const Increments<Dim>& increments, const SolidPoints<Dim>& points,
+                        double dt);
 
   const Grid<Dim>& grid_;
   const Supports<Dim>& supports_;
   int threads_;
   InertialLimits limits_;
   PointVelocities<Dim> velocities_;
+  std::vector<double> shear_rate_;
   double next_ = 0.0;  ///< length of the next step, s; 0: not known
 };
 
@@ -109,6 +115,19 @@ void InertialMotion<Dim>::plan_next(const InertialStep& step) {
 }
 
 template <int Dim>
+void InertialMotion<Dim>::find_shear_rates(const Increments<Dim>& increments,
+                                           const SolidPoints<Dim>& points, double dt) {
+  using Rate = Eigen::Matrix<double, Dim, Dim>;
+  shear_rate_.resize(points.size());
+  for (int p = 0; p < points.size(); ++p) {
+    const Rate& f = increments[points.element[p]];
+    Rate rate = (f + f.transpose()) / (2.0 * dt) - Rate::Identity() / dt;
+    rate -= rate.trace() / Dim * Rate::Identity();
+    shear_rate_[p] = std::sqrt(2.0) * rate.norm();
+  }
+}
+
+template <int Dim>
 InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
                                        const std::vector<PointSkeleton>& skeleton,
                                        const std::vector<double>& mass,
@@ -133,6 +152,7 @@ InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
     if (largest_travel(grid_, sorted, solution.displacement) > 1.5 * limits_.max_travel) continue;
     result.iterations = solution.iterations();
     result.inertia_share = equilibrium.inertia_norm() / norm<Dim>(loads);
+    find_shear_rates(increments_of(grid_, solution.displacement), points, dt);
     velocities_.take(grid_, points, times<Dim>(1.0 / dt, solution.displacement), nodes.mass);
     move_points(grid_, skeleton, solution.displacement,
                 equilibrium.law_increments(solution.displacement), points, threads_);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <iostream>
+#include <numbers>
 
 #include "inertial_soil.hpp"
 
@@ -39,6 +40,20 @@ TEST(CollapseLong, OfALowColumnIsThatOfSandOnFinerMeshes) {
       coarse = deep;
     }
   }
+}
+
+/// With friction that grows from 31 to 41 degrees with the rate of shear the front converges:
+/// grains have a size, which the mesh comes to resolve.
+TEST(CollapseLong, OfSandWhoseFrictionGrowsWithItsRateConverges) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  std::vector<double> runout;
+  for (const int cells : {8, 16, 32}) {
+    runout.push_back(
+        collapse({.aspect = 1.0, .cells = cells, .friction = {31.0 * degree, 41.0 * degree, 0.005}})
+            .runout);
+  }
+  EXPECT_LT(runout[2] - runout[1], 0.5 * (runout[1] - runout[0]));
+  EXPECT_NEAR(runout[2], 1.2, 0.1 * 1.2);
 }
 
 TEST(CollapseLong, OfATallColumnIsThatOfSand) {

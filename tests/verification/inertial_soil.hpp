@@ -10,6 +10,13 @@
 
 namespace suffuse::model {
 
+/// Friction that grows with the rate of shear.
+struct RateFriction {
+  double slow = 0.0;        ///< angle at rest
+  double fast = 0.0;        ///< angle at any rate
+  double grain_size = 0.0;  ///< m; 0: friction does not grow
+};
+
 /// Soil on crossed triangles with four points each.
 struct InertialModel : PlaneModel {
   InertialModel(Mesh<2> mesh_in, const SkeletonModel& soil, double density, const Vector<2>& g,
@@ -30,6 +37,20 @@ struct InertialModel : PlaneModel {
     NodeVectors<2> result = no_loads();
     add_point_forces(grid, points, force, result);
     return result;
+  }
+  /// Sets the friction to that at the rate of the last step (Jop, Forterre and Pouliquen, Nature
+  /// 441 (2006) 727): mu_s + (mu_2 - mu_s)/(1 + I_0/I) with I = rate d/sqrt(p/rho), I_0 = 0.279.
+  void follow_rate(const RateFriction& law, double grain_density) {
+    constexpr double inertial_number_of_mean = 0.279;
+    constexpr double least_pressure = 1.0;  // Pa
+    const std::vector<double>& rate = motion->shear_rate();
+    for (std::size_t p = 0; p < rate.size(); ++p) {
+      const double pressure = std::max(-stress(static_cast<int>(p)).trace() / 3.0, least_pressure);
+      const double number = rate[p] * law.grain_size / std::sqrt(pressure / grain_density);
+      const double share = number / (number + inertial_number_of_mean);
+      skeleton[p].parameters.friction =
+          std::atan((1.0 - share) * std::tan(law.slow) + share * std::tan(law.fast));
+    }
   }
   /// Makes one step of at most `longest` seconds.
   InertialStep move(double longest) {
@@ -73,6 +94,7 @@ struct Collapse {
   double longest = 0.01;  ///< s
   double end = 5.0;       ///< s
   int threads = 1;
+  RateFriction friction = {};
 };
 
 struct CollapseResult {
@@ -120,6 +142,7 @@ inline CollapseResult collapse(const Collapse& c) {
   CollapseResult result;
   const double before = m.soil_volume();
   while (m.time < c.end && !result.rests) {
+    if (c.friction.grain_size > 0.0) m.follow_rate(c.friction, 2650.0);
     const InertialStep step = m.move(std::min(c.longest, c.end - m.time));
     ++result.steps;
     result.iterations += step.iterations;
