@@ -71,8 +71,12 @@ Eigen::VectorXd rise_between(const std::vector<double>& before, const std::vecto
   return Map(after.data(), count) - Map(before.data(), count);
 }
 
+std::vector<double> values_of(const Eigen::VectorXd& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
 PressureRise rise_of(const Eigen::VectorXd& rose, double dt) {
-  PressureRise result{{rose.data(), rose.data() + rose.size()}, dt};
+  PressureRise result{values_of(rose), dt};
   for (double& rate : result.rate) rate /= dt;
   return result;
 }
@@ -93,25 +97,21 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   given.liquid_mass = liquid_mass(grid_, at_start, air);
   step.motion = solid_.start_step(std::move(given), std::move(step.motion));
   if (solid_.rests() && solve_at_rest(scheme, start, step)) return std::nullopt;
-  const double floor = round_off_strain * solid_.stiffness();
   if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
   const Eigen::VectorXd acts = acting_shares(soils, air, at_start.porosity, pressure);
   forcing.mean_storage = held_by_soil(acts, forcing.mean_mobility, dt);
-  const auto on_solid = [&](const Eigen::VectorXd& rise) {
-    return pressure_on_solid(grid_, soils, risen(pressure, rise), at_start.porosity, air);
-  };
   AndersonMixing mixing(memory);
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
-  const double scale =
-      largest_of_soil(on_solid(Eigen::VectorXd::Zero(pressure.size())), forcing.mean_storage);
-  // Rise found at faces whose pressure does not act on the soil.
-  Eigen::VectorXd beside = Eigen::VectorXd::Zero(grid_.face_count());
+  const double scale = largest_of_soil(
+      pressure_on_solid(grid_, soils, pressure, at_start.porosity, air), forcing.mean_storage);
+  Eigen::VectorXd beside = Eigen::VectorXd::Zero(rise.size());  // rise found beside the soil
   std::optional<int> worst_node;  // of the last motion without an equilibrium
   int worst_element = 0;
   for (int iteration = 1; iteration <= max_coupling_iterations; ++iteration) {
     ++step.iterations;
     const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
-    const std::vector<double> acting = on_solid(of_elements);
+    const std::vector<double> acting =
+        pressure_on_solid(grid_, soils, risen(pressure, of_elements), at_start.porosity, air);
     const SolidMotion& motion = solid_.solve(*step.motion, acting);
     if (!motion.converged) {
       worst_node = motion.worst_node;
@@ -127,17 +127,15 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
     const std::vector<double> moved =
         !soils.air_moves() ? motion.face_volume : without_air(motion, air, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
-    const Eigen::VectorXd expected = rise + beside;
-    forcing.expected_rise.assign(expected.data(), expected.data() + expected.size());
+    forcing.expected_rise = values_of(rise + beside);
     MixedStep<Dim> found = scheme.step(start.state, dt, {&forcing});
-    const Eigen::VectorXd rose_anywhere =
-        rise_between(start.state.face_pressure, found.end.face_pressure);
-    const Eigen::VectorXd rose = at_soil(rose_anywhere, forcing.mean_storage);
-    beside = rose_anywhere - rose;
+    const Eigen::VectorXd all = rise_between(start.state.face_pressure, found.end.face_pressure);
+    const Eigen::VectorXd rose = at_soil(all, forcing.mean_storage);
+    beside = all - rose;
     const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
     const double off =
         acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
-    if (off <= allowed(largest(acts.cwiseProduct(new_of_elements)), scale, floor)) {
+    if (off <= allowed(largest(acts.cwiseProduct(new_of_elements)), scale)) {
       step.rise = rise_of(rose, dt);
       step.flow.found = std::move(found);
       return std::nullopt;
@@ -246,8 +244,9 @@ Eigen::VectorXd FlowAndMotion<Dim>::at_soil(const Eigen::VectorXd& of_faces,
 }
 
 template <int Dim>
-double FlowAndMotion<Dim>::allowed(double rise, double pressure, double floor) const {
+double FlowAndMotion<Dim>::allowed(double rise, double pressure) const {
   if (solid_.has_inertia()) return accuracy_in_motion * (rise + pressure);
+  const double floor = round_off_strain * solid_.stiffness();
   return accuracy * rise + accuracy_of_pressure * pressure + floor;
 }
 

@@ -83,8 +83,8 @@ class FlowAndMotion {
   [[nodiscard]] Eigen::VectorXd at_soil(const Eigen::VectorXd& of_faces,
                                         const std::vector<double>& storage) const;
   /// Largest pressure difference that counts as converged, Pa, for the largest rise `rise` and the
-  /// largest pressure `pressure`, Pa; in equilibrium never below `floor`.
-  [[nodiscard]] double allowed(double rise, double pressure, double floor) const;
+  /// largest pressure `pressure`, Pa.
+  [[nodiscard]] double allowed(double rise, double pressure) const;
   /// Initial guess for a load that drained soil cannot bear: pressures if almost no water leaves.
   /// None if undrained soil cannot bear it either. `pressure`: on the solid, per element, Pa.
   [[nodiscard]] std::optional<Eigen::VectorXd> undrained_rise(MotionStep<Dim>& step,
