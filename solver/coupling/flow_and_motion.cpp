@@ -71,12 +71,12 @@ Eigen::VectorXd rise_between(const std::vector<double>& before, const std::vecto
   return Map(after.data(), count) - Map(before.data(), count);
 }
 
-std::vector<double> vector_of(const Eigen::VectorXd& values) {
+std::vector<double> as_std_vector(const Eigen::VectorXd& values) {
   return {values.data(), values.data() + values.size()};
 }
 
 PressureRise rise_of(const Eigen::VectorXd& rose, double dt) {
-  PressureRise result{vector_of(rose), dt};
+  PressureRise result{as_std_vector(rose), dt};
   for (double& rate : result.rate) rate /= dt;
   return result;
 }
@@ -127,7 +127,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
     const std::vector<double> moved =
         !soils.air_moves() ? motion.face_volume : without_air(motion, air, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
-    forcing.expected_rise = vector_of(rise + beside);
+    forcing.expected_rise = as_std_vector(rise + beside);
     MixedStep<Dim> found = scheme.step(start.state, dt, {&forcing});
     const Eigen::VectorXd all = rise_between(start.state.face_pressure, found.end.face_pressure);
     const Eigen::VectorXd rose = at_soil(all, forcing.mean_storage);
