@@ -286,7 +286,7 @@ auto Equilibrium<Dim>::total_stress(int e) const -> Gradient {
   return stress_[e] - pressure_at(e) * body_.grid.volume[e] * ratio_[e] * inverse_[e].transpose();
 }
 
-/// With d(J F^-T)_iJ / dF_kL = J (F^-1_Ji F^-1_Lk - F^-1_Jk F^-1_Li).
+/// The part of the pore water has d(J F^-T)_iJ / dF_kL = J (F^-1_Ji F^-1_Lk - F^-1_Jk F^-1_Li).
 template <int Dim>
 auto Equilibrium<Dim>::total_tangent(int e) const -> Tangent {
   Tangent tangent = tangent_[e];

@@ -42,8 +42,8 @@ TEST(CollapseLong, OfALowColumnIsThatOfSandOnFinerMeshes) {
   }
 }
 
-/// With friction that grows from 31 to 41 degrees with the rate of shear the front converges:
-/// grains have a size, which the mesh comes to resolve.
+/// The friction grows from 31 to 41 degrees with the rate of shear and the size of the grains. Then
+/// the run-out converges as the mesh comes to resolve that size.
 TEST(CollapseLong, OfSandWhoseFrictionGrowsWithItsRateConverges) {
   constexpr double degree = std::numbers::pi / 180.0;
   std::vector<double> runout;

@@ -70,7 +70,8 @@ Mesh<2> free(int cells) {
   return model::free_mesh(1.0 / cells);
 }
 
-/// With a Poisson's ratio of 0.4999 errors fall as with 0.3: elements do not lock.
+/// The errors for a Poisson's ratio of 0.4999 are of the same order as those for 0.3: the elements
+/// do not lock.
 class NearlyIncompressibleSoil : public ::testing::TestWithParam<Mesh<2> (*)(int)> {};
 INSTANTIATE_TEST_SUITE_P(Triangles, NearlyIncompressibleSoil,
                          ::testing::Values(crossed, in_rows, free));
