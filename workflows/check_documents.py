@@ -19,7 +19,7 @@ LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\(([^()\s]+)(?:\s+\"[^\"]*\")?\
 def pages(root):
     """The documents of the project, as paths relative to its root."""
     # Others are in folders of builds and of what the workflows make.
-    folders = ["docs", "tests", "workflows", "changelog"]
+    folders = ["docs", "tests", "workflows", "changes"]
     found = [path for path in root.glob("*.md")]
     for folder in folders:
         found += [path for path in (root / folder).rglob("*.md") if "out" not in path.relative_to(root).parts]

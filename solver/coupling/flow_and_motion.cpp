@@ -34,7 +34,7 @@ constexpr double accuracy_of_pressure = 1e-7;
 constexpr double round_off_strain = 1e-12;
 /// Accuracy with inertia, relative to the largest change plus the largest pressure: pressures of
 /// failing soil oscillate more from step to step.
-constexpr double accuracy_in_motion = 1e-4;
+constexpr double accuracy_in_motion = 1e-3;
 
 double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;
@@ -102,8 +102,8 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
   forcing.mean_storage = held_by_soil(acts, forcing.mean_mobility, dt);
   AndersonMixing mixing(memory);
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
-  const double scale = largest_of_soil(
-      pressure_on_solid(grid_, soils, pressure, at_start.porosity, air), forcing.mean_storage);
+  const Agreement agreement = agreement_at(largest_of_soil(
+      pressure_on_solid(grid_, soils, pressure, at_start.porosity, air), forcing.mean_storage));
   Eigen::VectorXd beside = Eigen::VectorXd::Zero(rise.size());  // rise found beside the soil
   std::optional<int> worst_node;  // of the last motion without an equilibrium
   int worst_element = 0;
@@ -135,7 +135,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::solve(ImplicitMixed<Dim>& scheme,
     const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
     const double off =
         acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
-    if (off <= allowed(largest(acts.cwiseProduct(new_of_elements)), scale)) {
+    if (off <= agreement.allowed(largest(acts.cwiseProduct(new_of_elements)))) {
       step.rise = rise_of(rose, dt);
       step.flow.found = std::move(found);
       return std::nullopt;
@@ -244,10 +244,10 @@ Eigen::VectorXd FlowAndMotion<Dim>::at_soil(const Eigen::VectorXd& of_faces,
 }
 
 template <int Dim>
-double FlowAndMotion<Dim>::allowed(double rise, double pressure) const {
-  if (solid_.has_inertia()) return accuracy_in_motion * (rise + pressure);
+Agreement FlowAndMotion<Dim>::agreement_at(double pressure) const {
+  if (solid_.has_inertia()) return {accuracy_in_motion, accuracy_in_motion * pressure};
   const double floor = round_off_strain * solid_.stiffness();
-  return accuracy * rise + accuracy_of_pressure * pressure + floor;
+  return {accuracy, accuracy_of_pressure * pressure + floor};
 }
 
 template <int Dim>

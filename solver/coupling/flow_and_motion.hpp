@@ -39,6 +39,15 @@ struct FlowStart {
   const std::vector<double>& pressure;  ///< of the elements, Pa
 };
 
+/// When the pressures of flow and motion agree.
+struct Agreement {
+  double share = 0.0;  ///< of the largest change of the pressure in the step
+  double floor = 0.0;  ///< in addition, Pa
+
+  /// Largest difference for the largest change `rise`, Pa.
+  [[nodiscard]] double allowed(double rise) const { return share * rise + floor; }
+};
+
 template <int Dim>
 class FlowAndMotion {
  public:
@@ -82,9 +91,8 @@ class FlowAndMotion {
   /// The values at faces where pressures act on the motion, zero at others.
   [[nodiscard]] Eigen::VectorXd at_soil(const Eigen::VectorXd& of_faces,
                                         const std::vector<double>& storage) const;
-  /// Largest pressure difference that counts as converged, Pa, for the largest rise `rise` and the
-  /// largest pressure `pressure`, Pa.
-  [[nodiscard]] double allowed(double rise, double pressure) const;
+  /// In the present step, for the largest pressure at its start, Pa.
+  [[nodiscard]] Agreement agreement_at(double pressure) const;
   /// Initial guess for a load that drained soil cannot bear: pressures if almost no water leaves.
   /// None if undrained soil cannot bear it either. `pressure`: on the solid, per element, Pa.
   [[nodiscard]] std::optional<Eigen::VectorXd> undrained_rise(MotionStep<Dim>& step,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/parallel.hpp"
+#include "linear/sparse_entries.hpp"
 
 namespace suffuse {
 namespace {

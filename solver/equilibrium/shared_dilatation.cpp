@@ -3,15 +3,9 @@
 #include <algorithm>
 
 #include "equilibrium/dilatation_patches.hpp"
+#include "linear/sparse_entries.hpp"
 
 namespace suffuse {
-
-int slot_of(const Eigen::SparseMatrix<double>& matrix, int row, int column) {
-  const int* const rows = matrix.innerIndexPtr();
-  const int* const first = rows + matrix.outerIndexPtr()[column];
-  const int* const last = rows + matrix.outerIndexPtr()[column + 1];
-  return static_cast<int>(std::lower_bound(first, last, row) - rows);
-}
 
 template <int Dim>
 SharedDilatation<Dim>::SharedDilatation(const Grid<Dim>& grid, const std::vector<double>& weight) {

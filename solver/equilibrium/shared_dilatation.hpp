@@ -9,9 +9,6 @@
 
 namespace suffuse {
 
-/// Index of an entry of the matrix among its values.
-int slot_of(const Eigen::SparseMatrix<double>& matrix, int row, int column);
-
 /// Soil that keeps its volume, or whose plastic flow prescribes its change of volume, is too stiff
 /// on triangles and tetrahedra with linear displacements: there are more elements, each with a
 /// condition on its volume, than displacements. So neighbours are joined to patches, most of two

@@ -14,6 +14,7 @@
 #include "grid/element_field.hpp"
 #include "grid/grid.hpp"
 #include "grid/parallel.hpp"
+#include "linear/sparse_entries.hpp"
 #include "mixed/directional_factor.hpp"
 #include "mixed/flow.hpp"
 
@@ -104,9 +105,10 @@ class MixedMatrix {
     double* values = values_.valuePtr();
     const int row = unknown_[wall.face];
     const int column = unknown_[wall.partner];
-    values[position(row, row)] += wall.conductance;
-    values[position(column, column)] += wall.conductance;
-    values[position(row, column)] = values[position(column, row)] = -wall.conductance;
+    values[slot_of(values_, row, row)] += wall.conductance;
+    values[slot_of(values_, column, column)] += wall.conductance;
+    values[slot_of(values_, row, column)] = values[slot_of(values_, column, row)] =
+        -wall.conductance;
   }
   /// Uncouples the unknown of a face from all others.
   void uncouple(int face) {
@@ -188,17 +190,10 @@ class MixedMatrix {
         for (int b = 0; b <= Dim; ++b) {
           const int row = unknown_[grid_.element_face[e][a]];
           const int column = unknown_[grid_.element_face[e][b]];
-          position_[e][a][b] = row >= 0 && column >= 0 ? position(row, column) : -1;
+          position_[e][a][b] = row >= 0 && column >= 0 ? slot_of(values_, row, column) : -1;
         }
       }
     }
-  }
-  /// Index of an entry among the values.
-  [[nodiscard]] int position(int row, int column) const {
-    const int* inner = values_.innerIndexPtr();
-    const int* first = inner + values_.outerIndexPtr()[column];
-    const int* last = inner + values_.outerIndexPtr()[column + 1];
-    return static_cast<int>(std::lower_bound(first, last, row) - inner);
   }
   /// Not inlined, so that the product is rounded before anything is added to it.
   [[nodiscard, gnu::noinline]] double entry(const MomentumLaw<Dim>& law, int e, int a,

@@ -52,9 +52,10 @@ endif()
 install(FILES post/python/suffuse.py DESTINATION ${SUFFUSE_PYTHON_DIR} COMPONENT programs)
 install(FILES workflows/paraview/show_results.py DESTINATION ${CMAKE_INSTALL_DATADIR}/suffuse COMPONENT programs)
 
-# --- Documents and examples; links between the documents hold ---
+# --- Documents and examples; links between the documents hold. A folder `changelog` would stand where
+# Debian has its file of this name. ---
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${documents} COMPONENT programs)
-install(DIRECTORY docs changelog DESTINATION ${documents} COMPONENT programs PATTERN man EXCLUDE)
+install(DIRECTORY docs changes DESTINATION ${documents} COMPONENT programs PATTERN man EXCLUDE)
 # Pages refer to the scenes as they do in the sources; examples/ leads there too.
 foreach(folder examples paper)
   install(DIRECTORY workflows/${folder} DESTINATION ${documents}/workflows COMPONENT programs
