@@ -3,6 +3,7 @@
 /// Bodies of dry soil with inertia, for tests without files and flow.
 
 #include <algorithm>
+#include <numbers>
 
 #include "dry_motion.hpp"
 #include "motion/soil_inertia.hpp"
@@ -12,8 +13,8 @@ namespace suffuse::model {
 
 /// Friction that grows with the rate of shear.
 struct RateFriction {
-  double slow = 0.0;        ///< angle at rest
-  double fast = 0.0;        ///< angle at any rate
+  double slow = 31.0;       ///< angle at rest, degrees
+  double fast = 31.0;       ///< angle at large rates, degrees
   double grain_size = 0.0;  ///< m; 0: friction does not grow
 };
 
@@ -43,13 +44,15 @@ struct InertialModel : PlaneModel {
   void follow_rate(const RateFriction& law, double grain_density) {
     constexpr double inertial_number_of_mean = 0.279;
     constexpr double least_pressure = 1.0;  // Pa
+    constexpr double degree = std::numbers::pi / 180.0;
+    const double slow = std::tan(law.slow * degree);
+    const double fast = std::tan(law.fast * degree);
     const std::vector<double>& rate = motion->shear_rate();
     for (std::size_t p = 0; p < rate.size(); ++p) {
       const double pressure = std::max(-stress(static_cast<int>(p)).trace() / 3.0, least_pressure);
       const double number = rate[p] * law.grain_size / std::sqrt(pressure / grain_density);
       const double share = number / (number + inertial_number_of_mean);
-      skeleton[p].parameters.friction =
-          std::atan((1.0 - share) * std::tan(law.slow) + share * std::tan(law.fast));
+      skeleton[p].parameters.friction = std::atan((1.0 - share) * slow + share * fast);
     }
   }
   /// Makes one step of at most `longest` seconds.
@@ -131,8 +134,8 @@ inline CollapseResult collapse(const Collapse& c) {
   const double tall = c.aspect + 2.0 * h;
   const int columns = static_cast<int>(std::lround(c.reach * c.cells));
   const int rows = static_cast<int>(std::lround(tall * c.cells));
-  InertialModel m(crossed_mesh(columns, rows, columns * h, rows * h), frictional_soil(1e6, 31.0),
-                  1600.0, {0.0, -9.81},
+  InertialModel m(crossed_mesh(columns, rows, columns * h, rows * h),
+                  frictional_soil(1e6, c.friction.slow), 1600.0, {0.0, -9.81},
                   [&](const Vector<2>& x) { return x[0] < 1.0 && x[1] < c.aspect; });
   m.threads = c.threads;
   m.support("left", Support::normal);
