@@ -34,7 +34,7 @@ constexpr double accuracy_of_pressure = 1e-7;
 constexpr double round_off_strain = 1e-12;
 /// Accuracy with inertia, relative to the largest change plus the largest pressure: pressures of
 /// failing soil oscillate more from step to step.
-constexpr double accuracy_in_motion = 1e-3;
+constexpr double accuracy_in_motion = 1e-4;
 
 double largest(const Eigen::VectorXd& values) {
   return values.size() > 0 ? values.template lpNorm<Eigen::Infinity>() : 0.0;

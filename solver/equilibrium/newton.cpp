@@ -9,14 +9,14 @@ namespace {
 /// Most halvings of Newton's step before the iterations are given up.
 constexpr int max_halvings = 10;
 /// The residual must fall by this share of the linear model's prediction (Armijo's rule).
-constexpr double armijo = 1e-4;
+constexpr double enough = 1e-4;
 /// Smallest tolerance of a linear solution, relative to its right-hand side.
 constexpr double best_accuracy = 1e-9;
 
 /// Tolerance of the linear solution, relative to its right-hand side: no smaller than Newton's
-/// method can use or its goal needs.
-double accuracy_at(double residual, double goal, double largest) {
-  return std::clamp(std::max(0.1 * goal / residual, 0.01 * residual), best_accuracy, largest);
+/// method can use or the tolerance needs.
+double accuracy_at(double residual, double tolerance) {
+  return std::clamp(std::max(0.1 * tolerance / residual, 0.01 * residual), best_accuracy, 1e-3);
 }
 
 }  // namespace
@@ -54,9 +54,8 @@ void EquilibriumSolver<Dim>::iterate(const NodeVectors<Dim>& loads, const Newton
     const double residual = force.norm() / (equilibrium_.force_scale() + norm<Dim>(loads));
     result.residuals.push_back(residual);
     result.converged = residual <= limits.tolerance;
-    const bool enough = residual <= goal && result.iterations() >= limits.min_iterations;
-    if (enough || result.iterations() == limits.max_iterations) return;
-    const double accuracy = accuracy_at(residual, goal, limits.linear_tolerance);
+    if (residual <= goal || result.iterations() == limits.max_iterations) return;
+    const double accuracy = accuracy_at(residual, goal);
     const int halvings = result.converged ? 0 : max_halvings;
     if (!improve(loads, force, accuracy, halvings, result.displacement)) return;
   }
@@ -130,7 +129,7 @@ bool EquilibriumSolver<Dim>::improve(const NodeVectors<Dim>& loads, const Eigen:
     unknowns().add(step, share, trial);
     if (!equilibrium_.is_possible(trial)) continue;
     equilibrium_.displace(trial, true);
-    if (!(unbalanced(loads).norm() <= (1.0 - armijo * share) * before)) continue;
+    if (!(unbalanced(loads).norm() <= (1.0 - enough * share) * before)) continue;
     displacement = std::move(trial);
     return true;
   }

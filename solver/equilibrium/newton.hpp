@@ -11,8 +11,6 @@
 namespace suffuse {
 
 struct NewtonLimits {
-  /// With 1, the displacement also answers changes of the pore pressure below the goal.
-  int min_iterations = 0;
   int max_iterations = 12;
   /// Largest residual, relative to the forces of the elements and the loads together.
   double tolerance = 1e-10;
@@ -20,8 +18,6 @@ struct NewtonLimits {
   /// progress. It is for soft soil next to stiff soil: the tolerance refers to the forces of the
   /// stiff soil, which are much larger.
   double goal = std::numeric_limits<double>::infinity();
-  /// Largest tolerance of a linear solution, relative to its right-hand side.
-  double linear_tolerance = 1e-3;
 };
 
 template <int Dim>

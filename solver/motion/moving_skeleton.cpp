@@ -19,13 +19,6 @@
 namespace suffuse {
 namespace {
 
-/// Pressures of confined water magnify the residual.
-constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
-/// Points without stress alternate between two states; up to a thousandth of the forces is then out
-/// of balance, at a few nodes, in one step.
-constexpr NewtonLimits in_motion{
-    .min_iterations = 1, .tolerance = 1e-3, .goal = 1e-4, .linear_tolerance = 1e-2};
-
 template <int Dim>
 SolidPoints<Dim> points_of(const Mesh<Dim>& mesh, const MaterialPoints<Dim>& points) {
   std::vector<PointPlace<Dim>> places;
@@ -252,6 +245,9 @@ MotionStep<Dim> MovingSkeleton<Dim>::start_step(MotionForcing forcing,
 
 template <int Dim>
 void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
+  // Pressures of confined water magnify the residual.
+  constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
+  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-5, .goal = 1e-6};
   step.has_inertia = inertia_.acts();
   // With inertia, a piece of soil connected by one node needs no soft stiffness.
   step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
