@@ -28,6 +28,12 @@ void MassRelaxation::observe(std::vector<double> mismatch, const std::vector<dou
 
 std::vector<double> MassRelaxation::wanted_source(double dt, double filling_time) const {
   std::vector<double> source = outflow_;
+  if (change_time_ > 0.0) {
+    // A short step says little about a much longer one: parts of its growth, as that of soil whose
+    // points change elements, do not grow with the step.
+    const double known = std::min(1.0, implicit_thresholds.max_growth * change_time_ / dt);
+    for (double& outflow : source) outflow *= known;
+  }
   const double rate = 1.0 / std::max(implicit_thresholds.release_steps * dt, filling_time);
   for (std::size_t e = 0; e < mismatch_.size(); ++e) source[e] += rate * mismatch_[e];
   return source;

@@ -55,6 +55,19 @@ TEST(MassRelaxation, EqualStepsTakeAQuarterOfTheMismatchEach) {
   }
 }
 
+/// What appears at once, in a step however short, must not be let out at that rate in a long one.
+TEST(MassRelaxation, DoesNotRepeatTheGrowthOfAShortStepInALongOne) {
+  constexpr double at_once = 1e-7;
+  constexpr double seconds = 1e-6;
+  Element element(0.0);
+  element.relaxation.pass_kink();
+  element.growth = at_once / seconds;
+  element.step(seconds, 0.0);
+  element.growth = 0.0;
+  element.step(1.0, 0.0);
+  EXPECT_LT(std::abs(element.mismatch), 5.0 * at_once);
+}
+
 TEST(MassRelaxation, IsNoFasterThanTheFlowPassesThroughAnElement) {
   Element element(1e-4);
   for (int n = 1; n <= 100; ++n) element.step(0.5, 50.0);
