@@ -31,7 +31,8 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
     flow_.set_forcing(ahead, step.flow);
     const double end = step.flow.start + step.flow.dt;
     const auto find = [&] {
-      return both_.solve(flow_.scheme(), {flow_.mixed_state(), flow_.pressure()},
+      return both_.solve(flow_.scheme(),
+                         {flow_.mixed_state(), flow_.pressure(), flow_.pressure_tolerance()},
                          {.end = end,
                           .duration = step.flow.dt,
                           .porosity = interval.pores.of_points_at(end),

@@ -6,6 +6,7 @@
 /// and pressures are mixed with those of earlier iterations (Anderson). Neither part knows the
 /// other.
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -37,15 +38,19 @@ template <int Dim>
 struct FlowStart {
   const MixedState<Dim>& state;
   const std::vector<double>& pressure;  ///< of the elements, Pa
+  double tolerance = 0.0;               ///< of the pressures' error in a step, Pa
 };
 
 /// When the pressures of flow and motion agree.
 struct Agreement {
-  double share = 0.0;  ///< of the largest change of the pressure in the step
-  double floor = 0.0;  ///< in addition, Pa
+  double share = 0.0;      ///< of the largest change of the pressure in the step ...
+  double most = 0.0;       ///< ... but no more than this, Pa
+  double round_off = 0.0;  ///< in addition, Pa
 
   /// Largest difference for the largest change `rise`, Pa.
-  [[nodiscard]] double allowed(double rise) const { return share * rise + floor; }
+  [[nodiscard]] double allowed(double rise) const {
+    return std::min(share * rise, most) + round_off;
+  }
 };
 
 template <int Dim>
@@ -61,6 +66,9 @@ class FlowAndMotion {
                                 MotionForcing forcing, CoupledStep<Dim>& step) const;
 
  private:
+  /// As `solve`, of soil that moves. Throws NotConverged.
+  std::optional<Unsolved> iterate(ImplicitMixed<Dim>& scheme, const FlowStart<Dim>& start,
+                                  CoupledStep<Dim>& step) const;
   /// Finds the step of soil that has come to rest: the flow through soil that does not move.
   /// Returns false if the soil does not stay where it is under the pressures at the end.
   bool solve_at_rest(ImplicitMixed<Dim>& scheme, const FlowStart<Dim>& start,
@@ -92,7 +100,7 @@ class FlowAndMotion {
   [[nodiscard]] Eigen::VectorXd at_soil(const Eigen::VectorXd& of_faces,
                                         const std::vector<double>& storage) const;
   /// When they agree in the present step. `pressure`: the largest one at its start, Pa.
-  [[nodiscard]] Agreement agreement_at(double pressure) const;
+  [[nodiscard]] Agreement agreement_at(double pressure, double tolerance) const;
   /// Initial guess for a load that drained soil cannot bear: pressures if almost no water leaves.
   /// None if undrained soil cannot bear it either. `pressure`: on the solid, per element, Pa.
   [[nodiscard]] std::optional<Eigen::VectorXd> undrained_rise(MotionStep<Dim>& step,

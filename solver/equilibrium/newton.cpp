@@ -48,12 +48,13 @@ NewtonSolution<Dim> EquilibriumSolver<Dim>::solve_prescribed(const NodeVectors<D
 template <int Dim>
 void EquilibriumSolver<Dim>::iterate(const NodeVectors<Dim>& loads, const NewtonLimits& limits,
                                      NewtonSolution<Dim>& result) {
-  const double goal = std::min(limits.goal, limits.tolerance);
   for (;;) {
     const Eigen::VectorXd force = unbalanced(loads);
     const double residual = force.norm() / (equilibrium_.force_scale() + norm<Dim>(loads));
     result.residuals.push_back(residual);
-    result.converged = residual <= limits.tolerance;
+    const double enough = limits.reduction * result.residuals.front();
+    const double goal = std::max(std::min(limits.goal, limits.tolerance), enough);
+    result.converged = residual <= std::max(limits.tolerance, enough);
     if (residual <= goal || result.iterations() == limits.max_iterations) return;
     const double accuracy = accuracy_at(residual, goal);
     const int halvings = result.converged ? 0 : max_halvings;

@@ -18,6 +18,8 @@ struct NewtonLimits {
   /// progress. It is for soft soil next to stiff soil: the tolerance refers to the forces of the
   /// stiff soil, which are much larger.
   double goal = std::numeric_limits<double>::infinity();
+  /// Share of the first residual at which the iterations may end, in addition to the above.
+  double reduction = 0.0;
 };
 
 template <int Dim>

@@ -39,7 +39,8 @@ void StepEquilibrium<Dim>::restart() {
 
 template <int Dim>
 bool StepEquilibrium<Dim>::solve(const NodeVectors<Dim>& loads, std::vector<double> pressure,
-                                 std::vector<double> stiffness) {
+                                 std::vector<double> stiffness, double reduction) {
+  limits_.reduction = reduction;
   equilibrium_.set_pressure(std::move(pressure), std::move(stiffness));
   NewtonSolution<Dim> solution = solver_.solve(loads, displacement_, limits_);
   if (!solution.converged) {

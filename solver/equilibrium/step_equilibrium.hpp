@@ -25,8 +25,9 @@ class StepEquilibrium {
   /// is none.
   /// \param loads     per node, N
   /// \param pressure  of the pores, per element, Pa; empty: none
+  /// \param reduction  see `NewtonLimits`
   bool solve(const NodeVectors<Dim>& loads, std::vector<double> pressure,
-             std::vector<double> stiffness = {});
+             std::vector<double> stiffness = {}, double reduction = 0.0);
   /// Finds the displacement in a pseudo-time where Newton's method alone fails: in sand without
   /// cohesion.
   bool settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,

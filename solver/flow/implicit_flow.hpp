@@ -72,6 +72,10 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Time and calls of `solve`.
   [[nodiscard]] PassTiming& timing() { return solving_; }
   [[nodiscard]] const MixedState<Dim>& mixed_state() const { return now_.state; }
+  /// Local error of the pressures that a step may have, Pa.
+  [[nodiscard]] double pressure_tolerance() const {
+    return this->scene().time.tolerance * scales_.pressure;
+  }
   [[nodiscard]] double next_step() const { return control_.next_step(); }
   [[nodiscard]] bool is_breakpoint(double time) const {
     return contains_time(this->breakpoints(), time);

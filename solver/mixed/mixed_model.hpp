@@ -52,6 +52,8 @@ struct FlowForcing {
   std::vector<double> expected_rise = {};
   /// Force on the liquid in addition to its weight, per element, N/m3. Empty: none.
   VectorField<Dim> force = {};
+  /// Share of the first residual at which Newton's method may end; 0: at its own accuracy.
+  double reduction = 0.0;
 };
 
 /// The nonlinear iteration of a step did not converge; that of a shorter step may.

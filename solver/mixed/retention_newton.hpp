@@ -25,6 +25,7 @@ class RetentionNewton {
   int solve() {
     double share = 1.0;
     double first_norm = 0.0;
+    double enough = 0.0;
     double last_norm = infinity;
     std::vector<double> from;
     for (int iteration = 0;; ++iteration) {
@@ -37,16 +38,19 @@ class RetentionNewton {
         take_step(share);
         norm = evaluate();
       }
-      if (iteration == 0) first_norm = norm;
       const double scale = largest_flux();
       const double left = system_.largest_load();
+      if (iteration == 0) {
+        first_norm = norm;
+        enough = stage_.forcing.reduction * left;
+      }
       const double allowed =
           flux_accuracy * scale + round_off_ + round_off_units * stage_.wall_round_off();
       // Accept round-off where water is at rest or an element is nearly flat.
       const bool stays = norm > 0.5 * last_norm && is_round_off_left();
-      const bool solved = left <= allowed || stays;
+      const bool solved = left <= std::max(allowed, enough) || stays;
       const bool switched = (solved || left <= near_solution * scale + allowed) &&
-                            switch_faces(stays ? std::max(left, allowed) : allowed);
+                            switch_faces(solved ? std::max(left, allowed) : allowed);
       if (!switched && solved) return iteration;
       // The iteration diverges; that of a shorter time step starts nearer to its end.
       const bool wanders =

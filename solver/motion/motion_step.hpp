@@ -57,6 +57,7 @@ struct MotionStep {
   std::unique_ptr<FaceBubbles<Dim>> bubbles;
   bool has_inertia = false;
   bool stays = false;            ///< the soil stays where it is
+  double reduction = 0.0;        ///< of residuals in the next solution: see `NewtonLimits`
   std::vector<double> mass;      ///< that has inertia, kg per point; empty without inertia
   NodalMotion<Dim> nodes;        ///< at the start of the step; empty without inertia
   std::vector<double> pressure;  ///< of the last solution, per element, Pa

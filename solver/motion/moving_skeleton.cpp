@@ -294,7 +294,8 @@ const SolidMotion& MovingSkeleton<Dim>::solve(MotionStep<Dim>& step,
   load(step, pressure);
   if (!step.has_inertia) crossing_forces_.add(step.forcing.duration, step.loads);
   SolidMotion& motion = step.motion;
-  motion.converged = equilibrium.solve(step.loads, pressure, std::move(stiffness));
+  motion.converged =
+      equilibrium.solve(step.loads, pressure, std::move(stiffness), step.reduction);
   if (!motion.converged) motion.worst_node = equilibrium.worst_node();
   motion.iterations = equilibrium.iterations();
   step.iterations += motion.iterations;
