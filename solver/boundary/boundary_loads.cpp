@@ -70,18 +70,18 @@ BoundaryLoads<Dim>::BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soi
     if (faces.empty()) continue;
     boundary_.push_back(b);
     surfaces_.emplace_back(grid, sorted, faces);
+    stress_.emplace_back(grid, sorted, std::move(faces), surfaces_.back().places());
   }
 }
 
 template <int Dim>
-void BoundaryLoads<Dim>::add(const PointsByElement& sorted, double time,
-                             NodeVectors<Dim>& loads) const {
+void BoundaryLoads<Dim>::add(const PointsByElement& sorted, const std::vector<double>& soil_volume,
+                             double time, NodeVectors<Dim>& loads) const {
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     const BoundaryCondition& boundary = scene_.boundaries[boundary_[k]];
     if (boundary.traction) {
       const VectorFunction::Components all = boundary.traction->value(time);
-      const Vector<Dim> traction = Eigen::Map<const Vector<Dim>>(all.data());
-      surfaces_[k].add_traction(grid_, sorted, traction, loads);
+      add_traction(k, sorted, soil_volume, Eigen::Map<const Vector<Dim>>(all.data()), loads);
       continue;
     }
     const double head = boundary.head->value(time);
@@ -90,6 +90,18 @@ void BoundaryLoads<Dim>::add(const PointsByElement& sorted, double time,
     };
     surfaces_[k].add_pressures(grid_, sorted, pressure, loads);
   }
+}
+
+template <int Dim>
+void BoundaryLoads<Dim>::add_traction(std::size_t surface, const PointsByElement& sorted,
+                                      const std::vector<double>& soil_volume,
+                                      const Vector<Dim>& traction, NodeVectors<Dim>& loads) const {
+  double share = stress_[surface].share(grid_, surfaces_[surface].places());
+  if (share > 0.0 && !stress_[surface].add(grid_, sorted, soil_volume, share * traction, loads)) {
+    share = 0.0;
+  }
+  if (share == 1.0) return;
+  surfaces_[surface].add_traction(grid_, sorted, (1.0 - share) * traction, loads);
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "boundary/loads.hpp"
+#include "boundary/virtual_stress.hpp"
 #include "solid/soil_map.hpp"
 
 namespace suffuse {
@@ -25,7 +26,9 @@ class BoundaryLoads {
   BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const PointsByElement& sorted);
 
   /// Adds the forces on the nodes at a time, s, to `loads`, N.
-  void add(const PointsByElement& sorted, double time, NodeVectors<Dim>& loads) const;
+  /// \param soil_volume  see `soil_volumes`
+  void add(const PointsByElement& sorted, const std::vector<double>& soil_volume, double time,
+           NodeVectors<Dim>& loads) const;
   /// Times at which a traction has a kink, s. The kinks of heads are breakpoints of the flow.
   [[nodiscard]] std::vector<double> breakpoints() const;
   /// Largest difference of a traction from that at the start, Pa.
@@ -42,10 +45,15 @@ class BoundaryLoads {
   void archive(auto& archive) { archive(surfaces_); }
 
  private:
+  void add_traction(std::size_t surface, const PointsByElement& sorted,
+                    const std::vector<double>& soil_volume, const Vector<Dim>& traction,
+                    NodeVectors<Dim>& loads) const;
+
   const Grid<Dim>& grid_;
   const Scene& scene_;
   std::vector<int> boundary_;  ///< per surface: index of the scene's boundary entry
   std::vector<LoadedSurface<Dim>> surfaces_;
+  std::vector<VirtualStress<Dim>> stress_;  ///< per surface
 };
 
 }  // namespace suffuse

@@ -199,11 +199,12 @@ NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
   const SoilMass mass{.solid = solid_mass, .liquid = forcing.liquid_mass};
   NodeVectors<Dim> result(this->grid_.mesh.node_count(), Vector<Dim>::Zero());
   add_weight(this->grid_, points_, sorted, classes, mass, soils.scene().gravity, result);
-  boundary_loads_.add(sorted, forcing.end, result);
+  const std::vector<double> volume = soil_volumes(points_, sorted, classes);
+  boundary_loads_.add(sorted, volume, forcing.end, result);
   construction_.add(forcing.end, result);
   if (has_free_water_) {
-    add_free_water(this->grid_, sorted, soil_volumes(points_, sorted, classes), pressure,
-                   forcing.liquid_mass, soils.scene().gravity, result);
+    add_free_water(this->grid_, sorted, volume, pressure, forcing.liquid_mass,
+                   soils.scene().gravity, result);
   }
   return result;
 }
@@ -294,8 +295,7 @@ const SolidMotion& MovingSkeleton<Dim>::solve(MotionStep<Dim>& step,
   load(step, pressure);
   if (!step.has_inertia) crossing_forces_.add(step.forcing.duration, step.loads);
   SolidMotion& motion = step.motion;
-  motion.converged =
-      equilibrium.solve(step.loads, pressure, std::move(stiffness), step.reduction);
+  motion.converged = equilibrium.solve(step.loads, pressure, std::move(stiffness), step.reduction);
   if (!motion.converged) motion.worst_node = equilibrium.worst_node();
   motion.iterations = equilibrium.iterations();
   step.iterations += motion.iterations;

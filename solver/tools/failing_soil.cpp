@@ -81,10 +81,11 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
   }
   NodeVectors<Dim> loads(grid.mesh.node_count(), Vector<Dim>::Zero());
   add_weight(grid, state.points, sorted, classes, mass, soils.scene().gravity, loads);
-  moved_loads(grid, soils, state).add(sorted, state.time, loads);
+  const std::vector<double> volume = soil_volumes(state.points, sorted, classes);
+  moved_loads(grid, soils, state).add(sorted, volume, state.time, loads);
   if (has_free_water(grid, soils)) {
-    add_free_water(grid, sorted, soil_volumes(state.points, sorted, classes), state.pressure,
-                   state.liquid_mass, soils.scene().gravity, loads);
+    add_free_water(grid, sorted, volume, state.pressure, state.liquid_mass, soils.scene().gravity,
+                   loads);
   }
   std::vector<double> kept;
   if (failing.depth > 0.0) {
