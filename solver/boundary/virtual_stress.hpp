@@ -10,12 +10,12 @@
 namespace suffuse {
 
 /// Between the faces of the mesh and the soil that has sunk below them a traction t acts as a
-/// uniform stress s with s n = t, n the normal of the faces (the virtual stress boundary: Liang,
-/// Chandra and Soga, Comput. Methods Appl. Mech. Eng. 414 (2023) 116165). Its forces on the nodes
-/// are those of the traction on the faces minus the integral of the stress over the volume that the
-/// soil has left. The soil under the surface then has the stress that balances the traction,
-/// wherever its points lie in their elements: a force at the place of the surface fits the volume
-/// of these points only nearly, and the first rows would have half the stress.
+/// uniform stress s with s n = t, n the normal of the faces (a virtual stress boundary, as of
+/// Liang, Given and Soga, Comput. Methods Appl. Mech. Eng., 2023). Its forces on the nodes are
+/// those of the traction on the faces minus the integral of the stress over the volume that the
+/// soil has left. The soil below then has the stress that balances the traction, wherever its
+/// points lie in their elements. A force at the place of the surface fits the volume of these
+/// points only nearly, and the stress of the topmost points is wrong.
 template <int Dim>
 class VirtualStress {
  public:

@@ -39,8 +39,8 @@ void refuse_filled(const Grid<Dim>& grid, const std::vector<double>& solid_volum
     const double porosity = 1.0 - solid_volume[e] / grid.volume[e];
     if (porosity > 0.0) continue;
     std::ostringstream message;
-    message << "t = " << time << " s: soil that moves leaves " << element_text(grid, e)
-            << " no pores (porosity " << porosity
+    message << "t = " << time << " s: soil that moves is compressed to its grains in "
+            << element_text(grid, e) << " (porosity " << porosity
             << "); expected are smaller elements, or soil that is stiffer against its loads";
     throw NumericalError(message.str());
   }

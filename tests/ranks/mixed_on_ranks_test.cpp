@@ -143,7 +143,8 @@ TEST(MixedOnRanks, HasTheFluxesOfOneProcess) {
       plane.set("left", FaceKind::pressure, 0.0);
       plane.set("right", FaceKind::flux, 1e-6);
       set_contrast(plane, contrast, scattered);
-      expect_fluxes_of_one_process(plane, "2D " + what, 60);
+      // At 1e12 the number depends on the round-off of the processor: 52 to 72.
+      expect_fluxes_of_one_process(plane, "2D " + what, contrast > 1e6 ? 90 : 60);
       FlowModelOf<3> space(cube());
       space.set("top", FaceKind::pressure, 2e4);
       space.set("bottom", FaceKind::pressure, 0.0);

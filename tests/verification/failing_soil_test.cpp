@@ -142,8 +142,26 @@ Run bank_run(Scene scene, int threads = 1) {
              options);
 }
 
+/// Displacement that 95 % of the points stay below, m. That of a single point is chaotic: the
+/// farthest one moves by 0.60 to 0.80 m as tolerances or the processor change.
+double displacement_of_most(const Snapshot& snapshot) {
+  const auto field = std::ranges::find(snapshot.solid, "displacement", &Field::name);
+  std::vector<double> length;
+  for (std::size_t i = 0; i < field->values.size(); i += 3) {
+    length.push_back(std::hypot(field->values[i], field->values[i + 1]));
+  }
+  std::ranges::sort(length);
+  return length[length.size() * 95 / 100];
+}
+
+/// Failure and run-out of the bank.
+struct RunOut {
+  double time = 0.0;          ///< of failure, s
+  double displacement = 0.0;  ///< of most points, m
+};
+
 template <class Run>
-HistoryRow fails_and_runs_out_under_water() {
+RunOut fails_and_runs_out_under_water() {
   Scene scene = bank();
   scene.time.end = 12.0;
   scene.time.failure = AtFailure::follow;
@@ -155,9 +173,11 @@ HistoryRow fails_and_runs_out_under_water() {
   EXPECT_EQ(states[0].history.inertia, 0.0);
   EXPECT_LT(states[0].history.displacement_max, 0.03);
   const auto& now = states[1];
-  std::cout << "failed at " << now.history.failure_time << " s, moved by "
-            << now.history.displacement_max << " m at " << now.time << " s, inertia "
-            << now.history.inertia << ", " << run.steps() << " steps\n";
+  const double moved = displacement_of_most(run.model().snapshot(run.model().flow_state()));
+  std::cout << "most points moved by less than " << moved << " m; failed at "
+            << now.history.failure_time << " s, moved by " << now.history.displacement_max
+            << " m at " << now.time << " s, inertia " << now.history.inertia << ", " << run.steps()
+            << " steps\n";
   // The speed criterion starts inertia a little before equilibrium is lost, which is at 8.1 s.
   EXPECT_GT(now.history.failure_time, 7.5);
   // All fines are gone after 10 s; sand of 25 degrees is unstable at 45 degrees.
@@ -167,14 +187,17 @@ HistoryRow fails_and_runs_out_under_water() {
   EXPECT_LT(run.worst_residual(), 1e-12);
   EXPECT_NEAR(missing_fines(now.ledger, erodible), 0.0, 1e-12 * erodible);
   EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, solid, 1e-12 * solid);
-  return now.history;
+  return {now.history.failure_time, moved};
 }
 
+/// No reference is known: the distances are those of this method, from 0.418 to 0.438 m and from
+/// 0.453 to 0.478 m with tolerances a tenth to a hundred times as large.
 TEST(Bank, LosesItsFinesFailsAndRunsOutUnderWater) {
-  const HistoryRow one = fails_and_runs_out_under_water<model::ModelRun>();
-  const HistoryRow both = fails_and_runs_out_under_water<model::DoublePointRun>();
-  EXPECT_NEAR(both.failure_time, one.failure_time, 0.1);
-  EXPECT_NEAR(both.displacement_max, one.displacement_max, 0.2 * one.displacement_max);
+  const RunOut one = fails_and_runs_out_under_water<model::ModelRun>();
+  const RunOut both = fails_and_runs_out_under_water<model::DoublePointRun>();
+  EXPECT_NEAR(both.time, one.time, 0.1);
+  EXPECT_NEAR(one.displacement, 0.43, 0.03);
+  EXPECT_NEAR(both.displacement, 0.465, 0.03);
 }
 
 /// Sand over a water table that loses strength, and slides into air.
