@@ -25,8 +25,10 @@ class VirtualStress {
   VirtualStress(const Grid<Dim>& grid, const PointsByElement& sorted, std::vector<int> faces,
                 std::vector<Vector<Dim>> places);
 
-  /// Adds the forces of a traction, Pa, to `loads`, N. Returns false, and adds nothing, if less
-  /// than half of the load reaches soil. \param soil_volume  see `soil_volumes`
+  /// Adds the forces of a traction, Pa, to `loads`, N, or nothing and returns false if less than
+  /// half of the load reaches soil.
+  ///
+  /// \param soil_volume  see `soil_volumes`
   bool add(const Grid<Dim>& grid, const PointsByElement& sorted,
            const std::vector<double>& soil_volume, const Vector<Dim>& traction,
            NodeVectors<Dim>& loads) const;

@@ -39,7 +39,7 @@ constexpr double round_off_strain = 1e-12;
 /// failing soil oscillate more from step to step.
 constexpr double accuracy_in_motion = 1e-4;
 /// Until pressures differ by less than this many times what is allowed, each iteration reduces the
-/// residuals of flow and motion by this factor only: exacter ones would answer to pressures that
+/// residuals of flow and motion by this factor only: more exact ones would answer to pressures that
 /// still change (inexact Newton methods: Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19
 /// (1982) 400).
 constexpr double near_agreement = 10.0;

@@ -99,7 +99,8 @@ class FlowAndMotion {
   /// The values at faces where pressures act on the motion, zero at others.
   [[nodiscard]] Eigen::VectorXd at_soil(const Eigen::VectorXd& of_faces,
                                         const std::vector<double>& storage) const;
-  /// When they agree in the present step. `pressure`: the largest one at its start, Pa.
+  /// When they agree in the present step. `pressure`: the largest one at its start, Pa;
+  /// `tolerance`: see `FlowStart`.
   [[nodiscard]] Agreement agreement_at(double pressure, double tolerance) const;
   /// Initial guess for a load that drained soil cannot bear: pressures if almost no water leaves.
   /// None if undrained soil cannot bear it either. `pressure`: on the solid, per element, Pa.
