@@ -52,9 +52,9 @@ void EquilibriumSolver<Dim>::iterate(const NodeVectors<Dim>& loads, const Newton
     const Eigen::VectorXd force = unbalanced(loads);
     const double residual = force.norm() / (equilibrium_.force_scale() + norm<Dim>(loads));
     result.residuals.push_back(residual);
-    const double enough = limits.reduction * result.residuals.front();
-    const double goal = std::max(std::min(limits.goal, limits.tolerance), enough);
-    result.converged = residual <= std::max(limits.tolerance, enough);
+    const double reduced = limits.reduction * result.residuals.front();
+    const double goal = std::max(std::min(limits.goal, limits.tolerance), reduced);
+    result.converged = residual <= std::max(limits.tolerance, reduced);
     if (residual <= goal || result.iterations() == limits.max_iterations) return;
     const double accuracy = accuracy_at(residual, goal);
     const int halvings = result.converged ? 0 : max_halvings;
