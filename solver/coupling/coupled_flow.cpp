@@ -31,13 +31,14 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
     flow_.set_forcing(ahead, step.flow);
     const double end = step.flow.start + step.flow.dt;
     const auto find = [&] {
-      return both_.solve(flow_.scheme(),
-                         {flow_.mixed_state(), flow_.pressure(), flow_.pressure_tolerance()},
-                         {.end = end,
-                          .duration = step.flow.dt,
-                          .porosity = interval.pores.of_points_at(end),
-                          .longest_travel = failure_.longest_travel()},
-                         step);
+      return both_.solve(
+          flow_.scheme(),
+          {flow_.mixed_state(), flow_.pressure(), tolerance_ * flow_.pressure_scale()},
+          {.end = end,
+           .duration = step.flow.dt,
+           .porosity = interval.pores.of_points_at(end),
+           .longest_travel = failure_.longest_travel()},
+          step);
     };
     std::optional<Unsolved> why = find();
     if (why && !flow_.is_shortest(step.flow)) {
@@ -85,7 +86,8 @@ FlowOfMovingSolid<Dim>::FlowOfMovingSolid(const Scene& scene, const Grid<Dim>& g
       solid_(solid),
       both_(grid, solid, threads),
       failure_(grid, solid, scene.follows_failure(grid.mesh.region_names)),
-      end_(scene.time.end) {}
+      end_(scene.time.end),
+      tolerance_(scene.time.tolerance) {}
 
 template <int Dim>
 void FlowOfMovingSolid<Dim>::start(SoilStart how) {

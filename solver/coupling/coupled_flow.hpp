@@ -46,6 +46,7 @@ class FlowOfMovingSolid {
   Failure<Dim> failure_;
   PressureRise rise_;  ///< in the last step
   double end_;         ///< of the run, s
+  double tolerance_;   ///< for the relative local error of a step
   long iterations_ = 0;
 };
 

@@ -53,16 +53,14 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] FlowStep<Dim> propose(const FlowInterval<Dim>& interval);
   /// Sets coefficients, boundary values and sources at each stage of the step.
   void set_forcing(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const;
-  /// Whether the solution of the step is accurate enough; otherwise shortens the step. Throws as
-  /// `solve` does.
+  /// Whether the solution is accurate enough; else shortens the step. Throws as `solve` does.
   [[nodiscard]] bool accepts(const FlowInterval<Dim>& interval, FlowStep<Dim>& step);
   /// Gives a long step sources that let out the expansion of water that moves to lower pressures,
   /// where its elements could not hold it. Returns whether the step is to be solved again.
   [[nodiscard]] bool let_out_expansion(FlowStep<Dim>& step) const;
   /// Shortens a step that has no solution. Throws as `solve` does.
   void reject(FlowStep<Dim>& step) { control_.reject(step.start, step.dt); }
-  /// Plans the step again after the solid got inertia: at least as long as the last one, within the
-  /// interval.
+  /// Plans the step again after the solid got inertia, at least as long as the last one.
   void plan_anew(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const;
   /// Whether a step without a solution is too short to be shortened.
   [[nodiscard]] bool is_shortest(const FlowStep<Dim>& step) const;
@@ -72,10 +70,8 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// Time and calls of `solve`.
   [[nodiscard]] PassTiming& timing() { return solving_; }
   [[nodiscard]] const MixedState<Dim>& mixed_state() const { return now_.state; }
-  /// Local error of the pressures that a step may have, Pa.
-  [[nodiscard]] double pressure_tolerance() const {
-    return this->scene().time.tolerance * scales_.pressure;
-  }
+  /// Relative to which errors of pressures are, Pa.
+  [[nodiscard]] double pressure_scale() const { return scales_.pressure; }
   [[nodiscard]] double next_step() const { return control_.next_step(); }
   [[nodiscard]] bool is_breakpoint(double time) const {
     return contains_time(this->breakpoints(), time);

@@ -40,10 +40,8 @@ class RetentionNewton {
       }
       const double scale = largest_flux();
       const double left = system_.largest_load();
-      if (iteration == 0) {
-        first_norm = norm;
-        enough = stage_.forcing.reduction * left;
-      }
+      if (iteration == 0) first_norm = norm;
+      if (iteration == 0) enough = stage_.forcing.reduction * left;
       const double allowed =
           flux_accuracy * scale + round_off_ + round_off_units * stage_.wall_round_off();
       // Accept round-off where water is at rest or an element is nearly flat.
