@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "boundary/loads.hpp"
+
 namespace suffuse {
 
 template <int Dim>
@@ -17,11 +19,7 @@ void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
                     const std::vector<double>& liquid_mass, const std::array<double, 3>& gravity,
                     NodeVectors<Dim>& loads) {
   const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(gravity.data());
-  std::vector<char> of_soil(grid.mesh.node_count(), 0);
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    if (sorted.is_empty(e)) continue;
-    for (const int i : grid.mesh.elements[e]) of_soil[i] = 1;
-  }
+  const std::vector<char> of_soil = nodes_of_soil(grid, sorted);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const double volume = grid.volume[e] - soil_volume[e];
     const Vector<Dim> weight = liquid_mass[e] * volume / (Dim + 1) * g;

@@ -48,18 +48,33 @@ void add_point_forces(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
 
 template <int Dim>
 void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                const PointsByElement& sorted, const ElementClasses& classes, const SoilMass& mass,
+                const std::vector<double>& soil_volume, const SoilMass& mass,
                 const std::array<double, 3>& gravity, NodeVectors<Dim>& loads) {
   const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(gravity.data());
   std::vector<Vector<Dim>> weight(points.size());
   for (int p = 0; p < points.size(); ++p) weight[p] = mass.solid[p] * g;
   add_point_forces(grid, points, weight, loads);
   if (mass.liquid.empty()) return;
-  const std::vector<double> volume = soil_volumes(points, sorted, classes);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const Vector<Dim> of_node = mass.liquid[e] * volume[e] / (Dim + 1) * g;
+    const Vector<Dim> of_node = mass.liquid[e] * soil_volume[e] / (Dim + 1) * g;
     for (const int i : grid.mesh.elements[e]) loads[i] += of_node;
   }
+}
+
+template <int Dim>
+int soil_beside(const Grid<Dim>& grid, const PointsByElement& sorted, int face) {
+  const bool left = grid.is_outer(face) || !sorted.is_empty(grid.face_left[face]);
+  return left ? grid.face_left[face] : grid.face_right[face];
+}
+
+template <int Dim>
+std::vector<char> nodes_of_soil(const Grid<Dim>& grid, const PointsByElement& sorted) {
+  std::vector<char> result(grid.mesh.node_count(), 0);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (sorted.is_empty(e)) continue;
+    for (const int i : grid.mesh.elements[e]) result[i] = 1;
+  }
+  return result;
 }
 
 template <int Dim>
@@ -72,8 +87,7 @@ template <int Dim>
 LoadedSurface<Dim>::LoadedSurface(const Grid<Dim>& grid, const PointsByElement& sorted,
                                   const std::vector<int>& faces) {
   for (const int f : faces) {
-    const bool left = !sorted.is_empty(grid.face_left[f]);
-    const int e = left || grid.is_outer(f) ? grid.face_left[f] : grid.face_right[f];
+    const int e = soil_beside(grid, sorted, f);
     const Vector<Dim> normal = e == grid.face_left[f] ? grid.face_normal[f] : -grid.face_normal[f];
     for (const std::array<double, Dim>& share : places_on_face<Dim>()) {
       Vector<Dim> x = Vector<Dim>::Zero();
@@ -169,12 +183,14 @@ template void add_point_forces(const Grid<3>&, const SolidPoints<3>&, const std:
                                NodeVectors<3>&);
 template Vector<2> downwards<2>(const std::array<double, 3>&);
 template Vector<3> downwards<3>(const std::array<double, 3>&);
-template void add_weight(const Grid<2>&, const SolidPoints<2>&, const PointsByElement&,
-                         const ElementClasses&, const SoilMass&, const std::array<double, 3>&,
-                         NodeVectors<2>&);
-template void add_weight(const Grid<3>&, const SolidPoints<3>&, const PointsByElement&,
-                         const ElementClasses&, const SoilMass&, const std::array<double, 3>&,
-                         NodeVectors<3>&);
+template void add_weight(const Grid<2>&, const SolidPoints<2>&, const std::vector<double>&,
+                         const SoilMass&, const std::array<double, 3>&, NodeVectors<2>&);
+template int soil_beside(const Grid<2>&, const PointsByElement&, int);
+template std::vector<char> nodes_of_soil(const Grid<2>&, const PointsByElement&);
+template void add_weight(const Grid<3>&, const SolidPoints<3>&, const std::vector<double>&,
+                         const SoilMass&, const std::array<double, 3>&, NodeVectors<3>&);
+template int soil_beside(const Grid<3>&, const PointsByElement&, int);
+template std::vector<char> nodes_of_soil(const Grid<3>&, const PointsByElement&);
 template class LoadedSurface<2>;
 template class LoadedSurface<3>;
 

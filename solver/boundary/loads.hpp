@@ -22,11 +22,19 @@ struct SoilMass {
 };
 
 /// Adds the weight of the solid at its points and of the liquid in its pores, N.
-/// \param gravity  m/s2
+/// \param soil_volume  see `soil_volumes`; `gravity` in m/s2
 template <int Dim>
 void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                const PointsByElement& sorted, const ElementClasses& classes, const SoilMass& mass,
+                const std::vector<double>& soil_volume, const SoilMass& mass,
                 const std::array<double, 3>& gravity, NodeVectors<Dim>& loads);
+
+/// The element with soil at a face; at the border of the mesh the only one.
+template <int Dim>
+int soil_beside(const Grid<Dim>& grid, const PointsByElement& sorted, int face);
+
+/// Per node: whether it belongs to an element with soil.
+template <int Dim>
+std::vector<char> nodes_of_soil(const Grid<Dim>& grid, const PointsByElement& sorted);
 
 /// A surface of the soil that carries a load. It starts on faces of the mesh and moves with the
 /// soil, so it may come to lie inside elements: places on it represent shares of its area. (Loading

@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary/loads.hpp"
+
 namespace suffuse {
 namespace {
-
-/// The element with soil at a face.
-template <int Dim>
-int soil_at(const Grid<Dim>& grid, const PointsByElement& sorted, int face) {
-  const bool left = grid.is_outer(face) || !sorted.is_empty(grid.face_left[face]);
-  return left ? grid.face_left[face] : grid.face_right[face];
-}
 
 /// Lowest barycentric coordinate, on a face, of a place projected along the face's normal.
 template <int Dim>
@@ -28,16 +23,6 @@ double lowest_on_face(const Grid<Dim>& grid, int face, const Vector<Dim>& x) {
   return shares.template head<Dim>().minCoeff();
 }
 
-template <int Dim>
-std::vector<char> nodes_of_soil(const Grid<Dim>& grid, const PointsByElement& sorted) {
-  std::vector<char> result(grid.mesh.node_count(), 0);
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    if (sorted.is_empty(e)) continue;
-    for (const int i : grid.mesh.elements[e]) result[i] = 1;
-  }
-  return result;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -48,7 +33,7 @@ VirtualStress<Dim>::VirtualStress(const Grid<Dim>& grid, const PointsByElement& 
   std::vector<int> visited(grid.mesh.element_count(), -1);
   for (int k = 0; k < static_cast<int>(faces_.size()); ++k) {
     const int f = faces_[k];
-    const bool is_left = soil_at(grid, sorted, f) == grid.face_left[f];
+    const bool is_left = soil_beside(grid, sorted, f) == grid.face_left[f];
     normal_.push_back(is_left ? grid.face_normal[f] : -grid.face_normal[f]);
     cover(grid, sorted, k, is_covered, visited);
   }
@@ -60,7 +45,7 @@ void VirtualStress<Dim>::cover(const Grid<Dim>& grid, const PointsByElement& sor
   // Elements around the prism behind the face are passed through, as the centroid of an element
   // may lie beside the prism and that of the next one in it.
   constexpr double around = -1.0;
-  std::vector<int> found{soil_at(grid, sorted, faces_[face])};
+  std::vector<int> found{soil_beside(grid, sorted, faces_[face])};
   visited[found.front()] = face;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const int e = found[i];

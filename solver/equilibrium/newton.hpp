@@ -18,7 +18,7 @@ struct NewtonLimits {
   /// progress. It is for soft soil next to stiff soil: the tolerance refers to the forces of the
   /// stiff soil, which are much larger.
   double goal = std::numeric_limits<double>::infinity();
-  /// Share of the first residual at which the iterations may end, in addition to the above.
+  /// The iterations may also end when the residual has fallen to this share of the first one.
   double reduction = 0.0;
 };
 

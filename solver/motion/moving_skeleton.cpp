@@ -198,8 +198,8 @@ NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
   const SoilMap<Dim>& soils = this->soils();
   const SoilMass mass{.solid = solid_mass, .liquid = forcing.liquid_mass};
   NodeVectors<Dim> result(this->grid_.mesh.node_count(), Vector<Dim>::Zero());
-  add_weight(this->grid_, points_, sorted, classes, mass, soils.scene().gravity, result);
   const std::vector<double> volume = soil_volumes(points_, sorted, classes);
+  add_weight(this->grid_, points_, volume, mass, soils.scene().gravity, result);
   boundary_loads_.add(sorted, volume, forcing.end, result);
   construction_.add(forcing.end, result);
   if (has_free_water_) {

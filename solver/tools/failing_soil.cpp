@@ -80,8 +80,8 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
     mass.solid.push_back(state.solid_volume[p] * soil.grain_density);
   }
   NodeVectors<Dim> loads(grid.mesh.node_count(), Vector<Dim>::Zero());
-  add_weight(grid, state.points, sorted, classes, mass, soils.scene().gravity, loads);
   const std::vector<double> volume = soil_volumes(state.points, sorted, classes);
+  add_weight(grid, state.points, volume, mass, soils.scene().gravity, loads);
   moved_loads(grid, soils, state).add(sorted, volume, state.time, loads);
   if (has_free_water(grid, soils)) {
     add_free_water(grid, sorted, volume, state.pressure, state.liquid_mass, soils.scene().gravity,

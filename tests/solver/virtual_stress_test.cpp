@@ -26,7 +26,7 @@ std::vector<QuadraturePoint<3>> places_in(const Mesh<3>& /*mesh*/) {
   return model::places_in_tetrahedron();
 }
 
-/// Soil in the whole of a mesh, with a traction on faces at its top.
+/// Soil fills the mesh. A traction acts on faces at its top.
 template <int Dim>
 struct Loaded : model::SolidModel<Dim> {
   explicit Loaded(const Mesh<Dim>& of, std::vector<int> faces = {})
