@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "grid/parallel.hpp"
-#include "linear/sparse_entries.hpp"
 
 namespace suffuse {
 namespace {
@@ -20,15 +19,6 @@ std::vector<int> elements_with_points(const SolidBody<Dim>& body) {
     if (!body.sorted.is_empty(e)) result.push_back(e);
   }
   return result;
-}
-
-template <int Dim>
-std::vector<char> nodes_of(const Mesh<Dim>& mesh, const std::vector<int>& elements) {
-  std::vector<char> used(mesh.node_count(), 0);
-  for (const int e : elements) {
-    for (const int i : mesh.elements[e]) used[i] = 1;
-  }
-  return used;
 }
 
 /// Elastic soil of a higher Poisson's ratio is so stiff against changes of its volume that linear
@@ -414,51 +404,27 @@ auto Equilibrium<Dim>::element_matrix(int e, const Tangent& tangent) const -> El
 }
 
 template <int Dim>
-void Equilibrium<Dim>::make_pattern() {
-  const auto unknowns_of = [&](int e) {
-    std::array<int, size> list;
-    for (int a = 0; a <= Dim; ++a) {
-      const int i = body_.grid.mesh.elements[e][a];
-      for (int k = 0; k < Dim; ++k) {
-        list[a * Dim + k] = k < unknowns_.count(i) ? unknowns_.first(i) + k : -1;
-      }
-    }
-    return list;
-  };
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const int e : elements_) {
-    const std::array<int, size> list = unknowns_of(e);
-    for (const int column : list) {
-      for (const int row : list) {
-        if (row >= 0 && column >= 0) entries.emplace_back(row, column, 0.0);
-      }
-    }
+bool Equilibrium<Dim>::share_pattern(Pattern& pattern) {
+  SoilCouplings couplings{elements_, dilatation_.patch_nodes()};
+  const bool fits = pattern && pattern->couplings() == couplings;
+  if (!fits) {
+    pattern =
+        std::make_shared<StiffnessPattern<Dim>>(body_.grid.mesh, unknowns_, std::move(couplings));
   }
-  dilatation_.add_pattern(unknowns_, entries);
-  pattern_.resize(unknowns_.count(), unknowns_.count());
-  pattern_.setFromTriplets(entries.begin(), entries.end());
-  dilatation_.find_slots(unknowns_, pattern_);
-  slots_.resize(elements_.size());
-  for (std::size_t at = 0; at < elements_.size(); ++at) {
-    const std::array<int, size> list = unknowns_of(elements_[at]);
-    for (int column = 0; column < size; ++column) {
-      for (int row = 0; row < size; ++row) {
-        const bool is_free = list[row] >= 0 && list[column] >= 0;
-        slots_[at][column * size + row] = is_free ? slot_of(pattern_, list[row], list[column]) : -1;
-      }
-    }
-  }
+  pattern_ = pattern;
+  return fits;
 }
 
 template <int Dim>
 void Equilibrium<Dim>::scatter(const auto& tangent_of, Eigen::SparseMatrix<double>& matrix) {
-  if (slots_.empty()) make_pattern();
-  matrix = pattern_;
+  if (!pattern_) share_pattern(pattern_);
+  matrix = pattern_->zeros();
   double* const values = matrix.valuePtr();
   for (std::size_t at = 0; at < elements_.size(); ++at) {
     const ElementMatrix of_element = element_matrix(elements_[at], tangent_of(elements_[at]));
+    const auto& slots = pattern_->of_element(at);
     for (int k = 0; k < size * size; ++k) {
-      if (slots_[at][k] >= 0) values[slots_[at][k]] += of_element.data()[k];
+      if (slots[k] >= 0) values[slots[k]] += of_element.data()[k];
     }
   }
   add_inertia(matrix);
@@ -478,12 +444,25 @@ void Equilibrium<Dim>::add_inertia(Eigen::SparseMatrix<double>& matrix) const {
 template <int Dim>
 void Equilibrium<Dim>::assemble(Eigen::SparseMatrix<double>& tangent) {
   scatter([&](int e) { return total_tangent(e); }, tangent);
-  dilatation_.add_tangent(unknowns_, mean_ratio_, tangent);
+  dilatation_.add_tangent(unknowns_, mean_ratio_, *pattern_, tangent);
 }
 
 template <int Dim>
 void Equilibrium<Dim>::assemble_elastic(Eigen::SparseMatrix<double>& stiffness) {
-  scatter([&](int e) { return elastic_tangent(e); }, stiffness);
+  std::vector<double> shared(ratio_.size(), 0.0);
+  scatter(
+      [&](int e) {
+        Tangent tangent = elastic_tangent(e);
+        if (!dilatation_.is_shared(e)) return tangent;
+        const Moduli mean = mean_moduli(e);
+        shared[e] = soil_volume_[e] * (mean.lame + 2.0 * mean.shear / Dim);
+        for (int i = 0; i < Dim; ++i) {
+          for (int j = 0; j < Dim; ++j) tangent(i + Dim * i, j + Dim * j) -= shared[e];
+        }
+        return tangent;
+      },
+      stiffness);
+  dilatation_.add_elastic(body_.grid, unknowns_, shared, *pattern_, stiffness);
 }
 
 template Increments<2> increments_of(const Grid<2>&, const NodeVectors<2>&);

@@ -4,7 +4,7 @@
 /// step.
 
 #include <Eigen/SparseCore>
-#include <array>
+#include <memory>
 #include <vector>
 
 #include "equilibrium/element_classes.hpp"
@@ -83,6 +83,10 @@ class Equilibrium {
   /// Sets the displacement over the step, m, which must be possible. Tangents cost more than
   /// forces; `assemble` needs them. The last displacement costs nothing.
   void displace(const NodeVectors<Dim>& displacement, bool with_tangents);
+  /// Finds the tangents at the last displacement.
+  void find_tangents() {
+    if (!has_tangents_) displace(NodeVectors<Dim>(displacement_), true);
+  }
   /// To be called after the stress of the points has changed.
   void forget_displacement() { displacement_.clear(); }
 
@@ -90,11 +94,16 @@ class Equilibrium {
   [[nodiscard]] NodeVectors<Dim> forces() const;
   /// Norm of the forces of inertia, N.
   [[nodiscard]] double inertia_norm() const;
+  [[nodiscard]] bool has_inertia() const { return !inertia_.empty(); }
   /// Norm of the forces of all elements, balanced or not, plus that at a strain of `least_strain`,
   /// N. Residuals are relative to it, also without stress.
   [[nodiscard]] double force_scale() const;
   /// Increments that laws see at a possible displacement, m.
   [[nodiscard]] Increments<Dim> law_increments(const NodeVectors<Dim>& displacement) const;
+  using Pattern = std::shared_ptr<const StiffnessPattern<Dim>>;
+  /// Takes this pattern of matrices if it is that of this body, otherwise sets it to that. Returns
+  /// whether it was taken.
+  bool share_pattern(Pattern& pattern);
   /// Sets the derivative of the forces by the unknowns, N/m. Its pattern is always the same.
   void assemble(Eigen::SparseMatrix<double>& tangent);
   /// The derivative times a displacement, N.
@@ -150,7 +159,6 @@ class Equilibrium {
     return inertia_[node] * (displacement_[node] - coasting_[node]);
   }
   void add_inertia(Eigen::SparseMatrix<double>& matrix) const;
-  void make_pattern();
   void scatter(const auto& tangent_of, Eigen::SparseMatrix<double>& matrix);
 
   SolidBody<Dim> body_;
@@ -166,17 +174,15 @@ class Equilibrium {
   double least_force_ = 0.0;       ///< part of `force_scale`, N
   std::vector<double> soft_;       ///< per element: stiffness against grad du, Pa m3
   SharedDilatation<Dim> dilatation_;
-  std::vector<Gradient> moved_;          ///< grad du per element
-  std::vector<Gradient> inverse_;        ///< F^-1 per element
-  std::vector<double> ratio_;            ///< det F per element
-  std::vector<double> mean_ratio_;       ///< that laws see
-  std::vector<Gradient> stress_;         ///< V_e P of the laws per element, Pa m3
-  std::vector<Gradient> effective_;      ///< V_e J sigma' per element, Pa m3
-  std::vector<double> soil_volume_;      ///< per element, m3
-  std::vector<Tangent> tangent_;         ///< derivative of `stress_` by F
-  Eigen::SparseMatrix<double> pattern_;  ///< set when a matrix is first needed
-  /// Per element with points: index of each entry of its matrix in `pattern_`, or -1.
-  std::vector<std::array<int, ElementMatrix::SizeAtCompileTime>> slots_;
+  std::vector<Gradient> moved_;      ///< grad du per element
+  std::vector<Gradient> inverse_;    ///< F^-1 per element
+  std::vector<double> ratio_;        ///< det F per element
+  std::vector<double> mean_ratio_;   ///< that laws see
+  std::vector<Gradient> stress_;     ///< V_e P of the laws per element, Pa m3
+  std::vector<Gradient> effective_;  ///< V_e J sigma' per element, Pa m3
+  std::vector<double> soil_volume_;  ///< per element, m3
+  std::vector<Tangent> tangent_;     ///< derivative of `stress_` by F
+  Pattern pattern_;                  ///< set when a matrix is first needed
 };
 
 }  // namespace suffuse

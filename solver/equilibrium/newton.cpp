@@ -12,6 +12,9 @@ constexpr int max_halvings = 10;
 constexpr double enough = 1e-4;
 /// Smallest tolerance of a linear solution, relative to its right-hand side.
 constexpr double best_accuracy = 1e-9;
+/// Share of the residual that an iteration with the elastic stiffness may leave.
+constexpr double elastic_reduction = 0.03;
+constexpr int max_elastic_iterations = 20;
 
 /// Tolerance of the linear solution, relative to its right-hand side: no smaller than Newton's
 /// method can use or the tolerance needs.
@@ -27,7 +30,7 @@ NewtonSolution<Dim> EquilibriumSolver<Dim>::solve(const NodeVectors<Dim>& loads,
                                                   const NewtonLimits& limits) {
   NewtonSolution<Dim> result;
   result.displacement = std::move(start);
-  equilibrium_.displace(result.displacement, true);
+  equilibrium_.displace(result.displacement, !is_elastic());
   iterate(loads, limits, result);
   if (!result.converged) result.worst_node = unknowns().longest(unbalanced(loads));
   return result;
@@ -39,7 +42,7 @@ NewtonSolution<Dim> EquilibriumSolver<Dim>::solve_prescribed(const NodeVectors<D
                                                              const NewtonLimits& limits) {
   NewtonSolution<Dim> result;
   result.displacement.assign(loads.size(), Vector<Dim>::Zero());
-  equilibrium_.displace(result.displacement, true);
+  equilibrium_.displace(result.displacement, !is_elastic());
   if (!prescribed.empty() && !prescribe(loads, prescribed, result.displacement)) return result;
   iterate(loads, limits, result);
   return result;
@@ -55,7 +58,14 @@ void EquilibriumSolver<Dim>::iterate(const NodeVectors<Dim>& loads, const Newton
     const double reduced = limits.reduction * result.residuals.front();
     const double goal = std::max(std::min(limits.goal, limits.tolerance), reduced);
     result.converged = residual <= std::max(limits.tolerance, reduced);
-    if (residual <= goal || result.iterations() == limits.max_iterations) return;
+    if (residual <= goal || result.tangents() == limits.max_iterations) return;
+    if (is_elastic() && result.elastic_iterations < max_elastic_iterations) {
+      if (improve_elastically(loads, force, result.displacement)) {
+        ++result.elastic_iterations;
+        continue;
+      }
+      yields_ = true;
+    }
     const double accuracy = accuracy_at(residual, goal);
     const int halvings = result.converged ? 0 : max_halvings;
     if (!improve(loads, force, accuracy, halvings, result.displacement)) return;
@@ -67,13 +77,23 @@ Eigen::VectorXd EquilibriumSolver<Dim>::unbalanced(const NodeVectors<Dim>& loads
   return unknowns().components(loads) - unknowns().components(equilibrium_.forces());
 }
 
-/// Factorizes once, for the first system: a step without any change needs no factor.
+/// Drops what was kept if another body has another pattern.
+template <int Dim>
+void EquilibriumSolver<Dim>::share_pattern() {
+  if (!shares_pattern_ && !equilibrium_.share_pattern(kept_->pattern))
+    kept_->system = NewtonSystem();
+  shares_pattern_ = true;
+}
+
+/// Factorizes once, for the first system that the kept factor does not solve: a step without any
+/// change needs no factor.
 template <int Dim>
 void EquilibriumSolver<Dim>::factorise() {
   if (factorised_) return;
+  share_pattern();
   equilibrium_.assemble_elastic(matrix_);
   try {
-    system_.factorise(matrix_);
+    kept_->system.factorise(matrix_);
   } catch (const NumericalError&) {
     throw NumericalError(
         "the displacements could not be solved for: nothing holds the soil, or a piece of it; fix "
@@ -89,9 +109,10 @@ bool EquilibriumSolver<Dim>::find_step(const Eigen::VectorXd& force, double accu
   step = Eigen::VectorXd::Zero(force.size());
   if (force.size() == 0) return true;
   factorise();
+  equilibrium_.find_tangents();
   equilibrium_.assemble(matrix_);
   try {
-    system_.solve(matrix_, force, step, accuracy);
+    kept_->system.solve(matrix_, force, step, accuracy);
   } catch (const NumericalError&) {
     return false;
   }
@@ -106,14 +127,42 @@ bool EquilibriumSolver<Dim>::prescribe(const NodeVectors<Dim>& loads,
                                        NodeVectors<Dim>& displacement) {
   displacement = prescribed;
   unknowns().add(unknowns().components(prescribed), -1.0, displacement);
+  equilibrium_.find_tangents();
   const Eigen::VectorXd force =
       unbalanced(loads) - unknowns().components(equilibrium_.tangent_times(displacement));
   Eigen::VectorXd step;
   if (!find_step(force, best_accuracy, step)) return false;
   unknowns().add(step, 1.0, displacement);
   if (!equilibrium_.is_possible(displacement)) return false;
-  equilibrium_.displace(displacement, true);
+  equilibrium_.displace(displacement, !is_elastic());
   return true;
+}
+
+/// One iteration with the elastic stiffness, first with the kept one. Returns false, and changes
+/// nothing, if it reduces the residual too little.
+template <int Dim>
+bool EquilibriumSolver<Dim>::improve_elastically(const NodeVectors<Dim>& loads,
+                                                 const Eigen::VectorXd& force,
+                                                 NodeVectors<Dim>& displacement) {
+  if (force.size() == 0) return false;
+  share_pattern();
+  for (;;) {
+    if (!kept_->system.is_factored()) factorise();
+    Eigen::VectorXd step;
+    kept_->system.solve_nearly(force, step);
+    NodeVectors<Dim> trial = displacement;
+    unknowns().add(step, 1.0, trial);
+    if (equilibrium_.is_possible(trial)) {
+      equilibrium_.displace(trial, false);
+      if (unbalanced(loads).norm() <= elastic_reduction * force.norm()) {
+        displacement = std::move(trial);
+        return true;
+      }
+    }
+    equilibrium_.displace(displacement, false);
+    if (factorised_) return false;
+    factorise();
+  }
 }
 
 /// One iteration. Returns false if no part of the step reduces the residual.
@@ -138,18 +187,7 @@ bool EquilibriumSolver<Dim>::improve(const NodeVectors<Dim>& loads, const Eigen:
   return false;
 }
 
-template <int Dim>
-NewtonSolution<Dim> solve_equilibrium(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads,
-                                      const NodeVectors<Dim>& prescribed,
-                                      const NewtonLimits& limits) {
-  return EquilibriumSolver<Dim>(equilibrium).solve_prescribed(loads, prescribed, limits);
-}
-
 template class EquilibriumSolver<2>;
 template class EquilibriumSolver<3>;
-template NewtonSolution<2> solve_equilibrium(Equilibrium<2>&, const NodeVectors<2>&,
-                                             const NodeVectors<2>&, const NewtonLimits&);
-template NewtonSolution<3> solve_equilibrium(Equilibrium<3>&, const NodeVectors<3>&,
-                                             const NodeVectors<3>&, const NewtonLimits&);
 
 }  // namespace suffuse

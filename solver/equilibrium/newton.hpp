@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "equilibrium/equilibrium.hpp"
-#include "linear/newton_system.hpp"
+#include "equilibrium/kept_stiffness.hpp"
 
 namespace suffuse {
 
@@ -29,22 +29,29 @@ struct NewtonSolution {
   bool converged = false;
   /// Norm of the unbalanced forces before each iteration and at the end, relative as above.
   std::vector<double> residuals;
+  int elastic_iterations = 0;  ///< of these, those with the elastic stiffness alone
   /// Node with the largest unbalanced force if the solution did not converge.
   int worst_node = -1;
 
   [[nodiscard]] int iterations() const { return static_cast<int>(residuals.size()) - 1; }
+  [[nodiscard]] int tangents() const { return iterations() - elastic_iterations; }
 };
 
 /// Finds the displacement over a step at which the forces of the solid equal the loads. Each
 /// iteration takes the largest of 1, 1/2, 1/4 ... of Newton's step that keeps volumes positive and
 /// reduces the residual. Linear systems are solved by iterations with the factor of the elastic
 /// stiffness, which is made at most once: further solutions, for other loads or pore pressures of
-/// the same step, cost little.
+/// the same step, cost little. In equilibrium without inertia, most soil does not yield: iterations
+/// begin with the elastic stiffness alone, whose factor may be that of an earlier step.
 template <int Dim>
 class EquilibriumSolver {
  public:
   /// Keeps a reference.
-  explicit EquilibriumSolver(Equilibrium<Dim>& equilibrium) : equilibrium_(equilibrium) {}
+  /// \param kept  of earlier equilibria of this soil
+  explicit EquilibriumSolver(
+      Equilibrium<Dim>& equilibrium,
+      std::shared_ptr<KeptStiffness<Dim>> kept = std::make_shared<KeptStiffness<Dim>>())
+      : equilibrium_(equilibrium), kept_(std::move(kept)) {}
 
   /// Leaves the equilibrium displaced by the solution. Throws NumericalError if nothing holds the
   /// soil.
@@ -69,7 +76,12 @@ class EquilibriumSolver {
   }
   void iterate(const NodeVectors<Dim>& loads, const NewtonLimits& limits,
                NewtonSolution<Dim>& result);
+  /// Whether the next iteration tries the elastic stiffness.
+  [[nodiscard]] bool is_elastic() const { return !yields_ && !equilibrium_.has_inertia(); }
   void factorise();
+  void share_pattern();
+  bool improve_elastically(const NodeVectors<Dim>& loads, const Eigen::VectorXd& force,
+                           NodeVectors<Dim>& displacement);
   bool find_step(const Eigen::VectorXd& force, double accuracy, Eigen::VectorXd& step);
   bool prescribe(const NodeVectors<Dim>& loads, const NodeVectors<Dim>& prescribed,
                  NodeVectors<Dim>& displacement);
@@ -77,15 +89,11 @@ class EquilibriumSolver {
                int halvings, NodeVectors<Dim>& displacement);
 
   Equilibrium<Dim>& equilibrium_;
-  NewtonSystem system_;
+  std::shared_ptr<KeptStiffness<Dim>> kept_;
   Eigen::SparseMatrix<double> matrix_;
-  bool factorised_ = false;
+  bool shares_pattern_ = false;  ///< whether the pattern is the kept one
+  bool factorised_ = false;      ///< whether the factor is that of this body
+  bool yields_ = false;          ///< whether the elastic stiffness has not been good enough
 };
-
-/// One solution from rest, as `EquilibriumSolver::solve_prescribed`.
-template <int Dim>
-NewtonSolution<Dim> solve_equilibrium(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads,
-                                      const NodeVectors<Dim>& prescribed,
-                                      const NewtonLimits& limits = {});
 
 }  // namespace suffuse

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "equilibrium/dilatation_patches.hpp"
-#include "linear/sparse_entries.hpp"
+#include "grid/dilatation_patches.hpp"
 
 namespace suffuse {
 
@@ -63,46 +62,46 @@ std::vector<double> SharedDilatation<Dim>::spread(const std::vector<double>& mea
 }
 
 template <int Dim>
-void SharedDilatation<Dim>::add_pattern(const DisplacementUnknowns<Dim>& unknowns,
-                                        std::vector<Eigen::Triplet<double>>& entries) const {
-  for (const Patch& patch : patches_) {
-    const std::vector<int> list = unknowns_of(patch, unknowns);
-    for (const int column : list) {
-      for (const int row : list) entries.emplace_back(row, column, 0.0);
-    }
-  }
-}
-
-template <int Dim>
-std::vector<int> SharedDilatation<Dim>::unknowns_of(const Patch& patch,
-                                                    const DisplacementUnknowns<Dim>& unknowns) {
-  std::vector<int> result;
-  for (const int i : patch.nodes) {
-    for (int k = 0; k < unknowns.count(i); ++k) result.push_back(unknowns.first(i) + k);
-  }
+std::vector<std::vector<int>> SharedDilatation<Dim>::patch_nodes() const {
+  std::vector<std::vector<int>> result;
+  result.reserve(patches_.size());
+  for (const Patch& patch : patches_) result.push_back(patch.nodes);
   return result;
 }
 
 template <int Dim>
-void SharedDilatation<Dim>::find_slots(const DisplacementUnknowns<Dim>& unknowns,
-                                       const Eigen::SparseMatrix<double>& pattern) {
-  for (Patch& patch : patches_) {
-    patch.slots.clear();
-    const std::vector<int> list = unknowns_of(patch, unknowns);
-    for (const int column : list) {
-      for (const int row : list) patch.slots.push_back(slot_of(pattern, row, column));
-    }
+void SharedDilatation<Dim>::add_tangent(const DisplacementUnknowns<Dim>& unknowns,
+                                        const std::vector<double>& mean_ratio,
+                                        const StiffnessPattern<Dim>& pattern,
+                                        Eigen::SparseMatrix<double>& matrix) const {
+  add(tangent_, unknowns, mean_ratio, pattern, matrix);
+}
+
+template <int Dim>
+void SharedDilatation<Dim>::add_elastic(const Grid<Dim>& grid,
+                                        const DisplacementUnknowns<Dim>& unknowns,
+                                        const std::vector<double>& stiffness,
+                                        const StiffnessPattern<Dim>& pattern,
+                                        Eigen::SparseMatrix<double>& matrix) const {
+  std::vector<Tangent> elastic(stiffness.size());
+  for (std::size_t e = 0; e < elastic.size(); ++e) {
+    for (int a = 0; a <= Dim; ++a) elastic[e].of_ratio.col(a) = grid.shape_gradient[e][a];
+    elastic[e].of_both = stiffness[e];
   }
+  add(elastic, unknowns, std::vector<double>(stiffness.size(), 1.0), pattern, matrix);
 }
 
 /// The derivative of a patch's forces is f r^T + r q^T, where r is dtheta/du, f the derivative of
 /// the forces by theta, and q that of the sum of the mean stresses by u.
 template <int Dim>
-void SharedDilatation<Dim>::add_tangent(const DisplacementUnknowns<Dim>& unknowns,
-                                        const std::vector<double>& mean_ratio,
-                                        Eigen::SparseMatrix<double>& matrix) const {
+void SharedDilatation<Dim>::add(const std::vector<Tangent>& tangent,
+                                const DisplacementUnknowns<Dim>& unknowns,
+                                const std::vector<double>& mean_ratio,
+                                const StiffnessPattern<Dim>& pattern,
+                                Eigen::SparseMatrix<double>& matrix) const {
   Eigen::MatrixXd vectors;  // r, f, q
-  for (const Patch& patch : patches_) {
+  for (std::size_t number = 0; number < patches_.size(); ++number) {
+    const Patch& patch = patches_[number];
     vectors.setZero(Dim * static_cast<Eigen::Index>(patch.nodes.size()), 3);
     double both = 0.0;
     const double ratio = mean_ratio[patch.elements.front()];
@@ -110,11 +109,11 @@ void SharedDilatation<Dim>::add_tangent(const DisplacementUnknowns<Dim>& unknown
       const int e = patch.elements[k];
       for (int a = 0; a <= Dim; ++a) {
         auto at = vectors.middleRows<Dim>(Dim * patch.places[k][a]);
-        at.col(0) += share_[e] / ratio * tangent_[e].of_ratio.col(a);
-        at.col(1) += tangent_[e].of_forces.col(a);
-        at.col(2) += tangent_[e].of_mean.col(a);
+        at.col(0) += share_[e] / ratio * tangent[e].of_ratio.col(a);
+        at.col(1) += tangent[e].of_forces.col(a);
+        at.col(2) += tangent[e].of_mean.col(a);
       }
-      both += tangent_[e].of_both;
+      both += tangent[e].of_both;
     }
     vectors.col(2) += both * vectors.col(0);
     int count = 0;
@@ -124,7 +123,7 @@ void SharedDilatation<Dim>::add_tangent(const DisplacementUnknowns<Dim>& unknown
           unknowns.supports().directions(i).transpose() * vectors.middleRows<Dim>(Dim * at);
       for (int k = 0; k < unknowns.count(i); ++k) vectors.row(count++) = along.row(k);
     }
-    auto slot = patch.slots.begin();
+    auto slot = pattern.of_patch(number).begin();
     for (int column = 0; column < count; ++column) {
       for (int row = 0; row < count; ++row) {
         matrix.valuePtr()[*slot++] +=

@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "equilibrium/supports.hpp"
+#include "equilibrium/stiffness_pattern.hpp"
 
 namespace suffuse {
 
@@ -39,22 +39,24 @@ class SharedDilatation {
   /// Derivatives of an element by the displacements u of its nodes and by theta, dtheta = dJm/Jm.
   struct Tangent {
     using OfNodes = Eigen::Matrix<double, Dim, Dim + 1>;
-    OfNodes of_ratio;      ///< dJ/du, 1/m
-    OfNodes of_mean;       ///< dm/du of the mean stress m, Pa m2
-    OfNodes of_forces;     ///< derivative of the forces on its nodes by theta, N
-    double of_both = 0.0;  ///< dm/dtheta - m, Pa m3
+    OfNodes of_ratio = OfNodes::Zero();   ///< dJ/du, 1/m
+    OfNodes of_mean = OfNodes::Zero();    ///< dm/du of the mean stress m, Pa m2
+    OfNodes of_forces = OfNodes::Zero();  ///< derivative of the forces on its nodes by theta, N
+    double of_both = 0.0;                 ///< dm/dtheta - m, Pa m3
   };
   /// Sets the derivatives of an element that shares its dilatation.
   void set_tangent(int element, const Tangent& tangent) { tangent_[element] = tangent; }
-  /// Appends the entries of the unknowns that patches couple.
-  void add_pattern(const DisplacementUnknowns<Dim>& unknowns,
-                   std::vector<Eigen::Triplet<double>>& entries) const;
-  /// Finds these entries in the pattern of the matrices.
-  void find_slots(const DisplacementUnknowns<Dim>& unknowns,
-                  const Eigen::SparseMatrix<double>& pattern);
-  /// Adds the derivative of the forces by the shared ratios to a matrix of this pattern.
+  /// Nodes of each patch, whose unknowns are coupled.
+  [[nodiscard]] std::vector<std::vector<int>> patch_nodes() const;
+  /// Adds the derivative of the forces by the shared ratios to a matrix of this pattern, which has
+  /// these patches.
   /// \param mean_ratio  Jm per element
   void add_tangent(const DisplacementUnknowns<Dim>& unknowns, const std::vector<double>& mean_ratio,
+                   const StiffnessPattern<Dim>& pattern, Eigen::SparseMatrix<double>& matrix) const;
+  /// As `add_tangent`, of elastic elements without stress and displacement.
+  /// \param stiffness  of the mean stress against the dilatation, per element, Pa m3
+  void add_elastic(const Grid<Dim>& grid, const DisplacementUnknowns<Dim>& unknowns,
+                   const std::vector<double>& stiffness, const StiffnessPattern<Dim>& pattern,
                    Eigen::SparseMatrix<double>& matrix) const;
   /// Adds that derivative times a displacement, N.
   void add_tangent_times(const NodeVectors<Dim>& displacement,
@@ -66,14 +68,13 @@ class SharedDilatation {
     std::vector<int> elements;
     std::vector<int> nodes;
     std::vector<std::array<int, Dim + 1>> places;
-    std::vector<int> slots;  ///< of pairs of its unknowns in a matrix, column by column
   };
-
-  [[nodiscard]] static std::vector<int> unknowns_of(const Patch& patch,
-                                                    const DisplacementUnknowns<Dim>& unknowns);
 
   void add_patch(const Mesh<Dim>& mesh, const std::vector<double>& weight,
                  const std::vector<int>& elements);
+  void add(const std::vector<Tangent>& tangent, const DisplacementUnknowns<Dim>& unknowns,
+           const std::vector<double>& mean_ratio, const StiffnessPattern<Dim>& pattern,
+           Eigen::SparseMatrix<double>& matrix) const;
 
   std::vector<Patch> patches_;    ///< of two elements or more
   std::vector<double> share_;     ///< per element: w_e / sum w in its patch; 0: not shared

@@ -6,13 +6,14 @@ template <int Dim>
 StepEquilibrium<Dim>::StepEquilibrium(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                       std::vector<PointSkeleton> skeleton,
                                       const Supports<Dim>& supports, int threads,
-                                      const NewtonLimits& limits, double soft)
+                                      const NewtonLimits& limits, double soft,
+                                      std::shared_ptr<KeptStiffness<Dim>> kept)
     : grid_(grid),
       sorted_(grid.mesh.element_count(), points.element),
       skeleton_(std::move(skeleton)),
       classes_(grid, points, sorted_),
       equilibrium_({grid, points, sorted_, skeleton_, classes_, soft}, supports, threads),
-      solver_(equilibrium_),
+      solver_(equilibrium_, std::move(kept)),
       limits_(limits) {
   restart();
 }

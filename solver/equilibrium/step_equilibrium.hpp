@@ -14,10 +14,13 @@ class StepEquilibrium {
   /// Keeps references to grid, points and supports.
   /// \param skeleton  per point
   /// \param soft      see SolidBody
+  /// \param kept      of earlier equilibria of this soil;
   /// Throws NumericalError if nothing holds the soil.
-  StepEquilibrium(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                  std::vector<PointSkeleton> skeleton, const Supports<Dim>& supports, int threads,
-                  const NewtonLimits& limits = {}, double soft = soft_share);
+  StepEquilibrium(
+      const Grid<Dim>& grid, const SolidPoints<Dim>& points, std::vector<PointSkeleton> skeleton,
+      const Supports<Dim>& supports, int threads, const NewtonLimits& limits = {},
+      double soft = soft_share,
+      std::shared_ptr<KeptStiffness<Dim>> kept = std::make_shared<KeptStiffness<Dim>>());
   StepEquilibrium(const StepEquilibrium&) = delete;
   StepEquilibrium& operator=(const StepEquilibrium&) = delete;
 

@@ -22,6 +22,10 @@ class NewtonSystem {
   /// of the last call. Throws NumericalError if it is not positive definite.
   void factorise(const Eigen::SparseMatrix<double>& nearly);
 
+  [[nodiscard]] bool is_factored() const { return factored_.size() > 0; }
+  /// Sets x to the solution with the factored matrix itself.
+  void solve_nearly(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) { factor_->solve(rhs, x); }
+
   /// Sets x to the solution of matrix x = rhs. Throws NumericalError if there is none, or if
   /// iterations with an inexact factor do not find it: such matrices are too large to be solved
   /// directly.
@@ -40,7 +44,13 @@ class NewtonSystem {
   /// The factor is made again from its values, with the same bits; `pattern` is that of the
   /// matrices. Without `is_used` what is restored is dropped.
   void archive(auto& archive, const Eigen::SparseMatrix<double>& pattern, bool is_used = true) {
-    archive(counts_, factored_);
+    archive(counts_);
+    archive_factor(archive, pattern, is_used);
+  }
+  /// As `archive`, without the counts.
+  void archive_factor(auto& archive, const Eigen::SparseMatrix<double>& pattern,
+                      bool is_used = true) {
+    archive(factored_);
     if (archive.restores() && !is_used) factored_.resize(0);
     if (!archive.restores() || factored_.size() == 0) return;
     if (factored_.size() != pattern.nonZeros()) archive.misfit();

@@ -34,12 +34,16 @@ void refuse_compressed(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
 }
 
 template <int Dim>
-void refuse_filled(const Grid<Dim>& grid, const std::vector<double>& solid_volume, double time) {
+void refuse_impossible(const Grid<Dim>& grid, const std::vector<double>& solid_volume,
+                       double time) {
+  constexpr double round_off = 1e-9;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const double porosity = 1.0 - solid_volume[e] / grid.volume[e];
-    if (porosity > 0.0) continue;
+    if (porosity > 0.0 && porosity <= 1.0 + round_off) continue;
+    const bool filled = porosity <= 0.0;
     std::ostringstream message;
-    message << "t = " << time << " s: soil that moves is compressed to its grains in "
+    message << "t = " << time << " s: soil that moves "
+            << (filled ? "is compressed to its grains" : "would leave less than no solid") << " in "
             << element_text(grid, e) << " (porosity " << porosity
             << "); expected are smaller elements, or soil that is stiffer against its loads";
     throw NumericalError(message.str());
@@ -48,7 +52,7 @@ void refuse_filled(const Grid<Dim>& grid, const std::vector<double>& solid_volum
 
 template void refuse_compressed(const Grid<2>&, const SoilMap<2>&, const SoilStep<2>&);
 template void refuse_compressed(const Grid<3>&, const SoilMap<3>&, const SoilStep<3>&);
-template void refuse_filled(const Grid<2>&, const std::vector<double>&, double);
-template void refuse_filled(const Grid<3>&, const std::vector<double>&, double);
+template void refuse_impossible(const Grid<2>&, const std::vector<double>&, double);
+template void refuse_impossible(const Grid<3>&, const std::vector<double>&, double);
 
 }  // namespace suffuse

@@ -79,7 +79,7 @@ void add_displacements(const std::vector<Vector<Dim>>& start, const std::vector<
 
 template <int Dim>
 void MovingSkeleton<Dim>::sort_points(double time) {
-  refuse_filled(this->grid_, solid_, time);
+  refuse_impossible(this->grid_, solid_, time);
   if (!std::ranges::is_sorted(points_.element)) {
     const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
     std::vector<int> order;

@@ -253,7 +253,7 @@ void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
   // With inertia, a piece of soil connected by one node needs no soft stiffness.
   step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
       this->grid_, points_, skeletons(step.loss), supports_, this->threads_,
-      step.has_inertia ? in_motion : in_equilibrium, step.has_inertia ? 0.0 : soft_share);
+      step.has_inertia ? in_motion : in_equilibrium, step.has_inertia ? 0.0 : soft_share, kept_);
   if (!step.has_inertia) {
     step.bubbles = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step.equilibrium);
     return;
@@ -380,8 +380,8 @@ void MovingSkeleton<Dim>::archive(StateArchive& archive) {
   archive(points_, start_, id_, region_, initial_erodible_, this->initial_porosity_,
           boundary_loads_, crossing_forces_, construction_, inertia_, held_share_, solid_,
           region_gain_, pressure_, filling_, correction_, newton_iterations_);
-  if (!archive.restores()) return;
-  show_points();
+  kept_->archive(archive, this->grid_.mesh, supports_);
+  if (archive.restores()) show_points();
 }
 
 template class MovingSkeleton<2>;

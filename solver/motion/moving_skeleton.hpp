@@ -90,8 +90,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] bool rests() const { return held_share_ > 0.0; }
 
   /// Volume by which each element's soil shrinks in a step of `duration`, s, per Pa of lower pore
-  /// pressure, m3/Pa: a measure of the coupling of pressure and motion. V_e / E_oed, as without
-  /// sideways motion; less with inertia.
+  /// pressure, m3/Pa: V_e / E_oed, as without sideways motion; less with inertia.
   [[nodiscard]] std::vector<double> compressibility(double duration) const;
   /// Mobility of soil with inertia under a gradient of the pore pressure, dt/rho per element, m3
   /// s/kg; 0 where stiffness or no pressure governs its motion in a step of `duration`, s. Empty
@@ -176,6 +175,7 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   BoundaryLoads<Dim> boundary_loads_;
   CrossingForces<Dim> crossing_forces_;  ///< without inertia
   ConstructionForces<Dim> construction_;
+  std::shared_ptr<KeptStiffness<Dim>> kept_ = std::make_shared<KeptStiffness<Dim>>();
   SoilInertia<Dim> inertia_;
   double held_share_ = 0.0;  ///< of the loads, while the soil rests after its inertia; 0: it moves
   std::vector<double> solid_;  ///< per element, m3

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "box_mesh.hpp"
-#include "equilibrium/dilatation_patches.hpp"
+#include "grid/dilatation_patches.hpp"
 #include "solver/solid_model.hpp"
 
 namespace suffuse {

@@ -121,7 +121,8 @@ class SolidModel {
     Supports<Dim> supports(grid, face_support);
     for (const int i : held) supports.hold(i);
     Equilibrium<Dim> equilibrium(body(), supports, threads);
-    NewtonSolution<Dim> solution = solve_equilibrium(equilibrium, loads, prescribed, limits);
+    NewtonSolution<Dim> solution =
+        EquilibriumSolver<Dim>(equilibrium).solve_prescribed(loads, prescribed, limits);
     if (!solution.converged) return solution;
     surface.move(grid, sorted, solution.displacement);
     move_points(grid, skeleton, solution.displacement,

@@ -32,9 +32,9 @@ TEST(CollapseLong, OfALowColumnIsThatOfSandOnFinerMeshes) {
       const model::CollapseResult sand = collapse({.aspect = aspect, .cells = cells});
       EXPECT_NEAR(sand.runout, 1.2 * aspect, 0.2 * 1.2 * aspect);
       const double deep = sand.runout_of_depth(0.1 * aspect);
-      EXPECT_NEAR(deep, 1.2 * aspect, 0.05 * 1.2 * aspect);
+      EXPECT_NEAR(deep, 1.2 * aspect, (cells > 16 ? 0.03 : 0.08) * 1.2 * aspect);
       if (cells > 16) {
-        EXPECT_NEAR(deep, coarse, 0.02 * 1.2 * aspect);
+        EXPECT_NEAR(deep, coarse, 0.05 * 1.2 * aspect);
       }
       coarse = deep;
     }

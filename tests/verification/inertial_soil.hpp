@@ -123,9 +123,11 @@ struct CollapseResult {
   /// How far soil of this depth has run out: strips are an eighth of the column wide.
   [[nodiscard]] double runout_of_depth(double least) const {
     constexpr double strip = 0.125;
+    constexpr double step = 0.125 * strip;
     double x = 0.5 * strip;
-    while (depth(x + 0.125 * strip, strip) > least) x += 0.125 * strip;
-    return x - 1.0;
+    while (depth(x + step, strip) > least) x += step;
+    const double here = depth(x, strip);
+    return x + step * (here - least) / (here - depth(x + step, strip)) - 1.0;
   }
 };
 

@@ -62,10 +62,11 @@ struct ColumnCase {
 };
 
 struct ColumnResult {
-  double length_error = 0.0;  ///< relative
-  double stress_error = 0.0;  ///< mean of |sigma_yy - exact| over the largest stress
-  double mean_iterations = 0.0;
-  int max_iterations = 0;
+  double length_error = 0.0;   ///< relative
+  double stress_error = 0.0;   ///< mean of |sigma_yy - exact| over the largest stress
+  double mean_tangents = 0.0;  ///< iterations that need a tangent, per step
+  int max_tangents = 0;
+  int max_iterations = 0;  ///< in addition those with the elastic stiffness
 };
 
 /// `exact`: a row of the reference table. The weight is applied in equal steps.
@@ -83,7 +84,8 @@ ColumnResult column_under_weight(const ReferenceRow& exact, const ColumnCase& c)
   for (int step = 1; step <= c.steps; ++step) {
     const NewtonSolution<2> solution = m.step(m.weight(gamma * step / c.steps));
     if (!solution.converged) throw NumericalError("Newton's method did not converge");
-    result.mean_iterations += static_cast<double>(solution.iterations()) / c.steps;
+    result.mean_tangents += static_cast<double>(solution.tangents()) / c.steps;
+    result.max_tangents = std::max(result.max_tangents, solution.tangents());
     result.max_iterations = std::max(result.max_iterations, solution.iterations());
   }
   result.length_error = m.soil_volume() / volume * length / exact.number("length") - 1.0;
@@ -94,8 +96,8 @@ ColumnResult column_under_weight(const ReferenceRow& exact, const ColumnCase& c)
   }
   std::cout << name_of(c.mesh) << ", " << c.points << " points, " << c.rows << " rows, gamma l/E "
             << gamma * length / exact.number("E_oed") << ": length " << 100.0 * result.length_error
-            << " %, stress " << 100.0 * result.stress_error << " %, iterations "
-            << result.mean_iterations << ", at most " << result.max_iterations << "\n";
+            << " %, stress " << 100.0 * result.stress_error << " %, tangents "
+            << result.mean_tangents << ", iterations at most " << result.max_iterations << "\n";
   return result;
 }
 
@@ -104,12 +106,13 @@ int steps_for(const ReferenceRow& row) {
   return row.number("gamma") * row.number("l0") / row.number("E_oed") > 1.0 ? 40 : 10;
 }
 
-TEST(ColumnUnderItsWeight, HasItsLengthInThreeIterationsAStep) {
+TEST(ColumnUnderItsWeight, HasItsLengthInThreeTangentsAStep) {
   for (const ReferenceRow& row : read_reference("self-weight-column.csv")) {
     const ColumnResult r = column_under_weight(row, {.steps = steps_for(row)});
     EXPECT_LE(std::abs(r.length_error), 1e-3);
-    EXPECT_LE(r.mean_iterations, 3.3);
-    EXPECT_LE(r.max_iterations, 4);
+    EXPECT_LE(r.mean_tangents, 3.3);
+    EXPECT_LE(r.max_tangents, 4);
+    EXPECT_LE(r.max_iterations, 8);
   }
 }
 
@@ -131,7 +134,7 @@ TEST(ColumnUnderItsWeight, HasItsLengthOnCrossedAndIrregularMeshes) {
       const int steps = steps_for(rows[k]);
       const ColumnResult r = column_under_weight(rows[k], {.mesh = mesh, .steps = steps});
       EXPECT_LE(std::abs(r.length_error), 1e-3);
-      EXPECT_LE(r.mean_iterations, 3.3);
+      EXPECT_LE(r.mean_tangents, 3.3);
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "equilibrium/dilatation_patches.hpp"
+#include "grid/dilatation_patches.hpp"
 
 #include <algorithm>
 #include <array>

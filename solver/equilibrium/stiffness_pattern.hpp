@@ -1,0 +1,57 @@
+#pragma once
+
+/// Where the tangent matrix of the soil has entries.
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <vector>
+
+#include "equilibrium/supports.hpp"
+
+namespace suffuse {
+
+/// What couples unknowns: elements with soil, and patches that share their dilatation.
+struct SoilCouplings {
+  std::vector<int> elements;
+  std::vector<std::vector<int>> patches;  ///< nodes of each
+
+  bool operator==(const SoilCouplings&) const = default;
+  void archive(auto& archive) { archive(elements, patches); }
+};
+
+/// Per node: whether it is a corner of one of these elements.
+template <int Dim>
+std::vector<char> nodes_of(const Mesh<Dim>& mesh, const std::vector<int>& elements) {
+  std::vector<char> used(mesh.node_count(), 0);
+  for (const int e : elements) {
+    for (const int i : mesh.elements[e]) used[i] = 1;
+  }
+  return used;
+}
+
+template <int Dim>
+class StiffnessPattern {
+ public:
+  static constexpr int size = Dim * (Dim + 1);
+  /// Indices among the values of the matrix, column by column; -1 in held directions.
+  using ElementSlots = std::array<int, std::size_t(size* size)>;
+
+  StiffnessPattern(const Mesh<Dim>& mesh, const DisplacementUnknowns<Dim>& unknowns,
+                   SoilCouplings couplings);
+
+  [[nodiscard]] const SoilCouplings& couplings() const { return couplings_; }
+  /// The matrix with zeros for all entries.
+  [[nodiscard]] const Eigen::SparseMatrix<double>& zeros() const { return zeros_; }
+  /// Entries of the matrix of the k-th element, with the directions of its nodes in their order.
+  [[nodiscard]] const ElementSlots& of_element(std::size_t k) const { return of_element_[k]; }
+  /// Entries of all pairs of unknowns of the k-th patch.
+  [[nodiscard]] const std::vector<int>& of_patch(std::size_t k) const { return of_patch_[k]; }
+
+ private:
+  SoilCouplings couplings_;
+  Eigen::SparseMatrix<double> zeros_;
+  std::vector<ElementSlots> of_element_;
+  std::vector<std::vector<int>> of_patch_;
+};
+
+}  // namespace suffuse
