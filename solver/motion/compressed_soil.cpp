@@ -40,11 +40,10 @@ void refuse_impossible(const Grid<Dim>& grid, const std::vector<double>& solid_v
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const double porosity = 1.0 - solid_volume[e] / grid.volume[e];
     if (porosity > 0.0 && porosity <= 1.0 + round_off) continue;
-    const bool filled = porosity <= 0.0;
     std::ostringstream message;
     message << "t = " << time << " s: soil that moves "
-            << (filled ? "is compressed to its grains" : "would leave less than no solid") << " in "
-            << element_text(grid, e) << " (porosity " << porosity
+            << (porosity <= 0.0 ? "is compressed to its grains" : "would leave less than no solid")
+            << " in " << element_text(grid, e) << " (porosity " << porosity
             << "); expected are smaller elements, or soil that is stiffer against its loads";
     throw NumericalError(message.str());
   }

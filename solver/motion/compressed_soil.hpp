@@ -24,8 +24,7 @@ struct SoilStep {
 template <int Dim>
 void refuse_compressed(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const SoilStep<Dim>& step);
 
-/// Throws NumericalError if solid fills an element at `time`, s, or has a negative volume in it:
-/// `solid_volume`, per element, m3.
+/// Throws NumericalError if solid, m3 per element, fills an element at `time`, s, or is negative.
 template <int Dim>
 void refuse_impossible(const Grid<Dim>& grid, const std::vector<double>& solid_volume, double time);
 
