@@ -21,10 +21,6 @@ std::vector<int> elements_with_points(const SolidBody<Dim>& body) {
   return result;
 }
 
-/// The soft stiffness of soil that does not yield is larger by this factor: little else holds the
-/// nodes of a surface that sinks through elements. Soil that yields would stand where it fails.
-constexpr double soft_factor_without_yielding = 50.0;
-
 /// Elastic soil of a higher Poisson's ratio is so stiff against changes of its volume that linear
 /// displacements lock.
 constexpr double least_locking_poisson = 0.4;
@@ -111,10 +107,7 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
   for (const int e : elements_) {
     if (body.classes.full[e] == 1.0) continue;
     double young = 0.0;
-    for (const int p : body.sorted.of(e)) {
-      const auto& [law, parameters] = body.skeleton[p];
-      young += parameters.young * (law->yields() ? 1.0 : soft_factor_without_yielding);
-    }
+    for (const int p : body.sorted.of(e)) young += body.skeleton[p].parameters.young;
     const auto points = static_cast<double>(body.sorted.of(e).size());
     soft_[e] = (1.0 - body.classes.full[e]) * body.soft * young / points * body.grid.volume[e];
   }

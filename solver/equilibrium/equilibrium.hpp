@@ -24,8 +24,7 @@ struct PointSkeleton {
 /// its nodes: its law only has to return zero stress.
 PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left);
 
-/// Share of the stiffness of full elements, of soil that yields, that acts in partial ones on the
-/// displacement of a step.
+/// Share of the stiffness of full elements that acts in partial ones on the displacement of a step.
 /// Without it a piece of soil connected by one node can rotate freely, and Newton's method stalls.
 /// It does not act on earlier displacements, so it does not carry the soil.
 inline constexpr double soft_share = 0.01;
