@@ -14,7 +14,7 @@ class StepEquilibrium {
   /// Keeps references to grid, points and supports.
   /// \param skeleton  per point
   /// \param soft      see SolidBody
-  /// \param kept      of earlier equilibria of this soil;
+  /// \param kept      of earlier equilibria of this soil
   /// Throws NumericalError if nothing holds the soil.
   StepEquilibrium(
       const Grid<Dim>& grid, const SolidPoints<Dim>& points, std::vector<PointSkeleton> skeleton,
