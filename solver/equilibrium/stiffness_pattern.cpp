@@ -7,10 +7,9 @@ namespace {
 
 /// Unknowns of an element along the directions of its nodes; -1 where they are held.
 template <int Dim>
-std::array<int, Dim*(Dim + 1)> unknowns_of_element(const Mesh<Dim>& mesh,
-                                                   const DisplacementUnknowns<Dim>& unknowns,
-                                                   int e) {
-  std::array<int, Dim*(Dim + 1)> list;
+std::array<int, element_components<Dim>> unknowns_of_element(
+    const Mesh<Dim>& mesh, const DisplacementUnknowns<Dim>& unknowns, int e) {
+  std::array<int, element_components<Dim>> list;
   for (int a = 0; a <= Dim; ++a) {
     const int i = mesh.elements[e][a];
     for (int k = 0; k < Dim; ++k) {

@@ -10,6 +10,10 @@
 
 namespace suffuse {
 
+/// Components of a displacement at the nodes of an element.
+template <int Dim>
+inline constexpr std::size_t element_components = std::size_t(Dim) * (Dim + 1);
+
 /// What couples unknowns: elements with soil, and patches that share their dilatation.
 struct SoilCouplings {
   std::vector<int> elements;
@@ -32,9 +36,8 @@ std::vector<char> nodes_of(const Mesh<Dim>& mesh, const std::vector<int>& elemen
 template <int Dim>
 class StiffnessPattern {
  public:
-  static constexpr int size = Dim * (Dim + 1);
   /// Indices among the values of the matrix, column by column; -1 in held directions.
-  using ElementSlots = std::array<int, std::size_t(size* size)>;
+  using ElementSlots = std::array<int, element_components<Dim> * element_components<Dim>>;
 
   StiffnessPattern(const Mesh<Dim>& mesh, const DisplacementUnknowns<Dim>& unknowns,
                    SoilCouplings couplings);
