@@ -22,6 +22,7 @@ struct KeptStiffness {
     if (archive.restores()) {
       const DisplacementUnknowns<Dim> unknowns(supports, nodes_of(mesh, couplings.elements));
       pattern = std::make_shared<StiffnessPattern<Dim>>(mesh, unknowns, std::move(couplings));
+      system = NewtonSystem();  // its order of unknowns may be that of another pattern
     }
     system.archive_factor(archive, pattern ? pattern->zeros() : Eigen::SparseMatrix<double>());
   }
