@@ -83,6 +83,7 @@ void SharedDilatation<Dim>::add_elastic(const Grid<Dim>& grid,
                                         const std::vector<double>& stiffness,
                                         const StiffnessPattern<Dim>& pattern,
                                         Eigen::SparseMatrix<double>& matrix) const {
+  if (!acts()) return;
   std::vector<Tangent> elastic(stiffness.size());
   for (std::size_t e = 0; e < elastic.size(); ++e) {
     for (int a = 0; a <= Dim; ++a) elastic[e].of_ratio.col(a) = grid.shape_gradient[e][a];
