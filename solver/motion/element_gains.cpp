@@ -25,13 +25,14 @@ std::vector<double> element_gains(const GainInput& in) {
     const double difference = in.solid[e] - in.smooth_before[e];
     gain[e] = in.smooth_after[e] - in.smooth_before[e] - (1.0 - kept[in.piece[e]]) * difference;
     sum[in.piece[e]] += gain[e];
-    solid[in.piece[e]] += in.smooth_after[e];
+    solid[in.piece[e]] += in.solid[e] + gain[e];
   }
-  // Distribute the rest: round-off, or a difference between pieces that have merged.
+  // Distribute the rest: round-off, or a difference between pieces that have merged. An element
+  // takes its part by the solid that it has, so an empty one stays empty.
   for (std::size_t e = 0; e < count; ++e) {
     const int piece = in.piece[e];
     if (piece >= 0 && solid[piece] > 0.0) {
-      gain[e] -= sum[piece] * in.smooth_after[e] / solid[piece];
+      gain[e] -= sum[piece] * (in.solid[e] + gain[e]) / solid[piece];
     }
   }
   return gain;

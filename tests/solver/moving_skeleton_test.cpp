@@ -324,6 +324,18 @@ TEST(SolidFlux, GainsOfAPieceAddUpToNothing) {
   EXPECT_GT(gain[1], 0.0);
 }
 
+/// The motion leaves nothing in the second element; the difference of the sums is another one's.
+TEST(SolidFlux, AnElementWithoutSolidTakesNoPartOfTheDifference) {
+  const std::vector<double> before{0.5, 0.3};
+  const std::vector<double> after{0.4, 0.05};
+  const std::vector<double> solid{0.52, 0.2};
+  const std::vector<double> volume(before.size(), 1.0);
+  const std::vector<int> piece{0, 0};
+  const std::vector<double> gain = element_gains({before, after, solid, volume, 0.1, piece, 1});
+  EXPECT_NEAR(solid[0] + gain[0], 0.72, 1e-15);
+  EXPECT_NEAR(solid[1] + gain[1], 0.0, 1e-16);
+}
+
 TEST(SolidFlux, ClosesToRoundOffWhileASoftColumnSinksThroughElements) {
   Body b(model::column_mesh(3, 12, 0.25, 1.0), sinking_scene());
   const double solid = b.solid_of_points();
