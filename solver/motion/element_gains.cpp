@@ -27,13 +27,12 @@ std::vector<double> element_gains(const GainInput& in) {
     sum[in.piece[e]] += gain[e];
     solid[in.piece[e]] += in.solid[e] + gain[e];
   }
-  // Distribute the rest: round-off, or a difference between pieces that have merged. An element
-  // takes its part by the solid that it has, so an empty one stays empty.
+  // Distribute the rest, round-off or a difference between pieces that have merged, by the solid
+  // that there is: an empty element stays empty.
   for (std::size_t e = 0; e < count; ++e) {
     const int piece = in.piece[e];
-    if (piece >= 0 && solid[piece] > 0.0) {
-      gain[e] -= sum[piece] * (in.solid[e] + gain[e]) / solid[piece];
-    }
+    if (piece < 0 || solid[piece] <= 0.0) continue;
+    gain[e] -= sum[piece] * (in.solid[e] + gain[e]) / solid[piece];
   }
   return gain;
 }
