@@ -31,10 +31,11 @@ constexpr double longest_growth = 10.0;
 /// the error that the step may have ...
 constexpr double share_of_rise = 1e-3;
 constexpr double share_of_tolerance = 0.03;
-/// ... plus this share of the largest pressure, plus the stress of the stiffest soil at a tiny
-/// strain: the solid is in equilibrium up to that (`NewtonLimits`, `Equilibrium::least_strain`).
+/// ... plus this share of the largest pressure, plus a share of the largest stress and of that of
+/// the stiffest soil at `Equilibrium::least_strain`: the solid is in equilibrium up to a hundredth
+/// of that (`NewtonLimits::tolerance`), which a loose surface magnifies.
 constexpr double accuracy_of_pressure = 1e-7;
-constexpr double round_off_strain = 1e-12;
+constexpr double accuracy_of_stress = 1e-8;
 /// Accuracy with inertia, relative to the largest change plus the largest pressure: pressures of
 /// failing soil oscillate more from step to step.
 constexpr double accuracy_in_motion = 1e-4;
@@ -54,6 +55,21 @@ double largest_of_soil(const std::vector<double>& pressure, const std::vector<do
   double result = 0.0;
   for (std::size_t e = 0; e < pressure.size(); ++e) {
     if (storage[e] != 0.0) result = std::max(result, std::abs(pressure[e]));
+  }
+  return result;
+}
+
+/// Largest stress at a point, nearly: that of its elastic strain by Young's modulus, Pa.
+template <int Dim>
+double largest_stress(const MovingSkeleton<Dim>& solid) {
+  const SolidPoints<Dim>& points = solid.points();
+  double result = 0.0;
+  for (int p = 0; p < points.size(); ++p) {
+    const SkeletonModel& skeleton = solid.soils().soil_of_point(p).skeleton;
+    if (!skeleton.moves()) continue;
+    const Eigen::Matrix3d strain =
+        0.5 * (points.skeleton[p].elastic_b - Eigen::Matrix3d::Identity());
+    result = std::max(result, skeleton.at(1.0).young * strain.norm());
   }
   return result;
 }
@@ -271,10 +287,11 @@ Agreement FlowAndMotion<Dim>::agreement_at(double pressure, double tolerance) co
     return {
         .share = accuracy_in_motion, .most = infinity, .round_off = accuracy_in_motion * pressure};
   }
-  const double floor = round_off_strain * solid_.stiffness();
+  const double stress =
+      largest_stress(solid_) + Equilibrium<Dim>::least_strain * solid_.stiffness();
   return {.share = share_of_rise,
           .most = share_of_tolerance * tolerance,
-          .round_off = accuracy_of_pressure * pressure + floor};
+          .round_off = accuracy_of_pressure * pressure + accuracy_of_stress * stress};
 }
 
 template <int Dim>

@@ -64,6 +64,30 @@ std::vector<double> least_masses(const Grid<Dim>& grid, const Supports<Dim>& sup
   return result;
 }
 
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> displacement_gradient(const Grid<Dim>& grid,
+                                                      const NodeVectors<Dim>& displacement, int e) {
+  Eigen::Matrix<double, Dim, Dim> gradient = Eigen::Matrix<double, Dim, Dim>::Zero();
+  for (int a = 0; a <= Dim; ++a) {
+    gradient += displacement[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
+  }
+  return gradient;
+}
+
+/// Hooke's law: the derivative of the stress by the gradient of a small displacement.
+template <int Dim>
+DeformationTangent<Dim> hooke_tangent(double lame, double shear) {
+  DeformationTangent<Dim> tangent = DeformationTangent<Dim>::Zero();
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) {
+      tangent(i + Dim * i, j + Dim * j) += lame;
+      tangent(i + Dim * j, i + Dim * j) += shear;
+      tangent(i + Dim * j, j + Dim * i) += shear;
+    }
+  }
+  return tangent;
+}
+
 /// (Jm/J)^(1/d): a factor on F that makes its determinant Jm.
 template <int Dim>
 double law_factor(double mean_ratio, double ratio) {
@@ -81,9 +105,7 @@ template <int Dim>
 Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& displacement) {
   Increments<Dim> result(grid.mesh.element_count(), Eigen::Matrix<double, Dim, Dim>::Identity());
   for (std::size_t e = 0; e < result.size(); ++e) {
-    for (int a = 0; a <= Dim; ++a) {
-      result[e] += displacement[grid.mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
-    }
+    result[e] += displacement_gradient(grid, displacement, static_cast<int>(e));
   }
   return result;
 }
@@ -96,7 +118,7 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
       elements_(elements_with_points(body)),
       unknowns_(supports, nodes_of(body.grid.mesh, elements_)) {
   const int count = body.grid.mesh.element_count();
-  soft_.assign(count, 0.0);
+  soft_.assign(count, {.gradient = 0.0, .strain = 0.0});
   moved_.assign(count, Gradient::Zero());
   inverse_.assign(count, Gradient::Identity());
   ratio_.assign(count, 1.0);
@@ -104,13 +126,7 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
   stress_.assign(count, Gradient::Zero());
   effective_.assign(count, Gradient::Zero());
   soil_volume_ = soil_volumes(body.points, body.sorted, body.classes);
-  for (const int e : elements_) {
-    if (body.classes.full[e] == 1.0) continue;
-    double young = 0.0;
-    for (const int p : body.sorted.of(e)) young += body.skeleton[p].parameters.young;
-    const auto points = static_cast<double>(body.sorted.of(e).size());
-    soft_[e] = (1.0 - body.classes.full[e]) * body.soft * young / points * body.grid.volume[e];
-  }
+  for (const int e : elements_) set_soft_stiffness(e);
   double sum = 0.0;
   for (const int e : elements_) {
     const double modulus = elastic_tangent(e)(0, 0);
@@ -121,20 +137,22 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
 }
 
 template <int Dim>
-auto Equilibrium<Dim>::displacement_gradient(const NodeVectors<Dim>& displacement, int e) const
-    -> Gradient {
-  Gradient gradient = Gradient::Zero();
-  for (int a = 0; a <= Dim; ++a) {
-    gradient +=
-        displacement[body_.grid.mesh.elements[e][a]] * body_.grid.shape_gradient[e][a].transpose();
+void Equilibrium<Dim>::set_soft_stiffness(int e) {
+  const auto& points = body_.sorted.of(e);
+  double young = 0.0;
+  for (const int p : points) young += body_.skeleton[p].parameters.young;
+  const double stiffness = (1.0 - body_.classes.full[e]) * body_.grid.volume[e] * young /
+                           static_cast<double>(points.size());
+  soft_[e].gradient = body_.soft.gradient * stiffness;
+  if (std::ranges::none_of(points, [&](int p) { return body_.skeleton[p].law->yields(); })) {
+    soft_[e].strain = body_.soft.strain * stiffness;
   }
-  return gradient;
 }
 
 template <int Dim>
 bool Equilibrium<Dim>::is_possible(const NodeVectors<Dim>& displacement) const {
   for (const int e : elements_) {
-    const Gradient f = Gradient::Identity() + displacement_gradient(displacement, e);
+    const Gradient f = Gradient::Identity() + displacement_gradient(body_.grid, displacement, e);
     if (!(f.determinant() > min_ratio)) return false;
   }
   return true;
@@ -154,7 +172,7 @@ void Equilibrium<Dim>::displace(const NodeVectors<Dim>& displacement, bool with_
   has_tangents_ = with_tangents;
   if (with_tangents) tangent_.resize(body_.grid.mesh.element_count());
   for_each_element([&](int e) {
-    moved_[e] = displacement_gradient(displacement, e);
+    moved_[e] = displacement_gradient(body_.grid, displacement, e);
     const Gradient f = Gradient::Identity() + moved_[e];
     ratio_[e] = f.determinant();
     inverse_[e] = f.inverse();
@@ -193,13 +211,10 @@ Increments<Dim> Equilibrium<Dim>::law_increments(const NodeVectors<Dim>& displac
 template <int Dim>
 void Equilibrium<Dim>::respond(bool with_tangents, int e) {
   Gradient f = Gradient::Identity() + moved_[e];
-  if (dilatation_.is_shared(e)) f *= law_factor<Dim>(mean_ratio_[e], ratio_[e]);
-  const double soft = dilatation_.is_shared(e) ? 0.0 : soft_[e];
-  stress_[e] = soft * moved_[e];
-  if (with_tangents) {
-    tangent_[e].setZero();
-    tangent_[e].diagonal().setConstant(soft);
-  }
+  const bool is_shared = dilatation_.is_shared(e);
+  if (is_shared) f *= law_factor<Dim>(mean_ratio_[e], ratio_[e]);
+  stress_[e] = is_shared ? Gradient::Zero() : soft_stress(e);
+  if (with_tangents) tangent_[e] = is_shared ? Tangent::Zero() : soft_tangent(e);
   Eigen::Matrix3d kirchhoff = Eigen::Matrix3d::Zero();  // times volume
   for (const int p : body_.sorted.of(e)) {
     const auto& [law, parameters] = body_.skeleton[p];
@@ -224,7 +239,7 @@ void Equilibrium<Dim>::share_stress(double spread, bool with_tangents, int e) {
   const double mu = ratio_[e] * spread;
   const Gradient working = stress + (mu - mean) * Gradient::Identity();
   const Gradient to_first = inverse_[e].transpose();
-  stress_[e] = soft_[e] * moved_[e] + working * to_first;
+  stress_[e] = soft_stress(e) + working * to_first;
   if (with_tangents) share_tangent(mu, working, e);
   effective_[e] = working;
 }
@@ -255,7 +270,6 @@ void Equilibrium<Dim>::share_tangent(double mu, const Gradient& working, int e) 
     const Gradient column = (of_working - working * g.transpose()) * to_first;
     if (k < Dim * Dim) {
       tangent_[e].col(k) = column.reshaped();
-      tangent_[e](k, k) += soft_[e];
       by_f.reshaped()[k] = of_mean;
       continue;
     }
@@ -267,6 +281,7 @@ void Equilibrium<Dim>::share_tangent(double mu, const Gradient& working, int e) 
       shared.of_forces.col(a) = column * shape;
     }
   }
+  tangent_[e] += soft_tangent(e);
   dilatation_.set_tangent(e, shared);
 }
 
@@ -343,22 +358,6 @@ double Equilibrium<Dim>::force_scale() const {
 }
 
 template <int Dim>
-NodeVectors<Dim> Equilibrium<Dim>::tangent_times(const NodeVectors<Dim>& displacement) const {
-  NodeVectors<Dim> result(body_.grid.mesh.node_count(), Vector<Dim>::Zero());
-  for (const int e : elements_) {
-    const Eigen::Matrix<double, Dim * Dim, 1> change =
-        total_tangent(e) * displacement_gradient(displacement, e).reshaped();
-    const Gradient stress = change.template reshaped<Eigen::AutoOrder>(Dim, Dim);
-    for (int a = 0; a <= Dim; ++a) {
-      result[body_.grid.mesh.elements[e][a]] += stress * body_.grid.shape_gradient[e][a];
-    }
-  }
-  for (std::size_t i = 0; i < inertia_.size(); ++i) result[i] += inertia_[i] * displacement[i];
-  dilatation_.add_tangent_times(displacement, mean_ratio_, result);
-  return result;
-}
-
-template <int Dim>
 auto Equilibrium<Dim>::mean_moduli(int e) const -> Moduli {
   Moduli sum;
   for (const int p : body_.sorted.of(e)) {
@@ -371,19 +370,21 @@ auto Equilibrium<Dim>::mean_moduli(int e) const -> Moduli {
 }
 
 template <int Dim>
+auto Equilibrium<Dim>::soft_stress(int e) const -> Gradient {
+  return soft_[e].gradient * moved_[e] +
+         0.5 * soft_[e].strain * (moved_[e] + moved_[e].transpose());
+}
+
+template <int Dim>
+auto Equilibrium<Dim>::soft_tangent(int e) const -> Tangent {
+  return soft_[e].gradient * Tangent::Identity() + hooke_tangent<Dim>(0.0, 0.5 * soft_[e].strain);
+}
+
+template <int Dim>
 auto Equilibrium<Dim>::elastic_tangent(int e) const -> Tangent {
   const Moduli mean = mean_moduli(e);
-  const double lame = soil_volume_[e] * mean.lame;
-  const double shear = soil_volume_[e] * mean.shear;
-  Tangent tangent = soft_[e] * Tangent::Identity();
-  for (int i = 0; i < Dim; ++i) {
-    for (int j = 0; j < Dim; ++j) {
-      tangent(i + Dim * i, j + Dim * j) += lame;
-      tangent(i + Dim * j, i + Dim * j) += shear;
-      tangent(i + Dim * j, j + Dim * i) += shear;
-    }
-  }
-  return tangent;
+  return soft_tangent(e) +
+         hooke_tangent<Dim>(soil_volume_[e] * mean.lame, soil_volume_[e] * mean.shear);
 }
 
 /// The derivative of the forces along the free directions of an element's nodes by the
@@ -405,6 +406,7 @@ auto Equilibrium<Dim>::element_matrix(int e, const Tangent& tangent) const -> El
 
 template <int Dim>
 bool Equilibrium<Dim>::share_pattern(Pattern& pattern) {
+  if (pattern_ && pattern == pattern_) return true;
   SoilCouplings couplings{elements_, dilatation_.patch_nodes()};
   const bool fits = pattern && pattern->couplings() == couplings;
   if (!fits) {

@@ -24,10 +24,20 @@ struct PointSkeleton {
 /// its nodes: its law only has to return zero stress.
 PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left);
 
-/// Share of the stiffness of full elements that acts in partial ones on the displacement of a step.
-/// Without it a piece of soil connected by one node can rotate freely, and Newton's method stalls.
-/// It does not act on earlier displacements, so it does not carry the soil.
-inline constexpr double soft_share = 0.01;
+/// Stiffness of partial elements against the displacement of a step, in Young's moduli. It does not
+/// act on earlier displacements, so it does not carry the soil.
+struct SoftStiffness {
+  /// Against the gradient: without it a piece of soil connected by one node can rotate freely, and
+  /// Newton's method stalls.
+  double gradient = 0.01;
+  /// Against the strain of soil that does not yield: without it little holds the nodes of a surface
+  /// that sinks through elements. Soil that yields would stand where it fails.
+  double strain = 0.0;
+};
+/// In steps without inertia. All loads at once, as at the start, need the default.
+inline constexpr SoftStiffness soft_in_steps{.strain = 2.0};
+/// Inertia holds what one node connects.
+inline constexpr SoftStiffness soft_with_inertia{.gradient = 0.0};
 
 /// The solid at the start of a step. Keeps references.
 template <int Dim>
@@ -37,7 +47,7 @@ struct SolidBody {
   const PointsByElement& sorted;
   const std::vector<PointSkeleton>& skeleton;  ///< per point
   const ElementClasses& classes;
-  double soft = soft_share;
+  SoftStiffness soft = {};
 };
 
 /// Increments F = I + grad du of the deformation gradient, per element.
@@ -51,14 +61,14 @@ Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& dis
 /// Equilibrium over one step about the places at its start (updated Lagrangian), with linear
 /// displacements, F = I + grad du:
 ///
-///     R_u = sum_e [scale sum_p V_0 tau F^-T + soft E V_e grad du - p V_e J F^-T] grad N - loads
+///     R_u = sum_e [scale sum_p V_0 tau F^-T + S_e - p V_e J F^-T] grad N - loads
 ///           + M (du - dt v*)/dt^2 where inertia counts (backward Euler)
 ///
-/// with the Kirchhoff stress tau of each point by its law, J = det F and the pore pressure p of the
-/// element (docs/theory/moving-soil.md, "Equilibrium of the solid"). Where elements share their
-/// dilatation, laws see (Jm/J)^(1/d) F with the mean ratio Jm of `SharedDilatation`, and the forces
-/// are those of the same work. Contributions of elements are added in the order of the elements:
-/// the same bits on any number of threads.
+/// with the stress S_e of the soft stiffness, the Kirchhoff stress tau of each point by its law, J
+/// = det F and the pore pressure p of the element (docs/theory/moving-soil.md, "Equilibrium of the
+/// solid"). Where elements share their dilatation, laws see (Jm/J)^(1/d) F with the mean ratio Jm
+/// of `SharedDilatation`, and the forces are those of the same work. Contributions of elements are
+/// added in the order of the elements: the same bits on any number of threads.
 template <int Dim>
 class Equilibrium {
  public:
@@ -106,8 +116,6 @@ class Equilibrium {
   bool share_pattern(Pattern& pattern);
   /// Sets the derivative of the forces by the unknowns, N/m. Its pattern is always the same.
   void assemble(Eigen::SparseMatrix<double>& tangent);
-  /// The derivative times a displacement, N.
-  [[nodiscard]] NodeVectors<Dim> tangent_times(const NodeVectors<Dim>& displacement) const;
   /// The elastic stiffness of this body without stress. It is symmetric and, where the soil is
   /// held, positive definite, so that its factor serves as a preconditioner.
   void assemble_elastic(Eigen::SparseMatrix<double>& stiffness);
@@ -139,7 +147,9 @@ class Equilibrium {
   using Tangent = DeformationTangent<Dim>;
   using ElementMatrix = Eigen::Matrix<double, size, size>;
 
-  [[nodiscard]] Gradient displacement_gradient(const NodeVectors<Dim>& displacement, int e) const;
+  void set_soft_stiffness(int element);
+  [[nodiscard]] Gradient soft_stress(int element) const;
+  [[nodiscard]] Tangent soft_tangent(int element) const;
   [[nodiscard]] Tangent elastic_tangent(int element) const;
   /// Calls a function with each element that has points, on several threads.
   void for_each_element(const auto& call) const;
@@ -167,12 +177,12 @@ class Equilibrium {
   DisplacementUnknowns<Dim> unknowns_;
   std::vector<double> pressure_;
   std::vector<double> stiffness_;
-  std::vector<double> inertia_;    ///< M/dt^2 per node, N/m; empty: none
-  NodeVectors<Dim> coasting_;      ///< dt v* per node, m
-  NodeVectors<Dim> displacement_;  ///< the last displacement, m
-  bool has_tangents_ = false;      ///< whether tangents are those of `displacement_`
-  double least_force_ = 0.0;       ///< part of `force_scale`, N
-  std::vector<double> soft_;       ///< per element: stiffness against grad du, Pa m3
+  std::vector<double> inertia_;      ///< M/dt^2 per node, N/m; empty: none
+  NodeVectors<Dim> coasting_;        ///< dt v* per node, m
+  NodeVectors<Dim> displacement_;    ///< the last displacement, m
+  bool has_tangents_ = false;        ///< whether tangents are those of `displacement_`
+  double least_force_ = 0.0;         ///< part of `force_scale`, N
+  std::vector<SoftStiffness> soft_;  ///< per element, Pa m3
   SharedDilatation<Dim> dilatation_;
   std::vector<Gradient> moved_;      ///< grad du per element
   std::vector<Gradient> inverse_;    ///< F^-1 per element

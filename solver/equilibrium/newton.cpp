@@ -37,18 +37,6 @@ NewtonSolution<Dim> EquilibriumSolver<Dim>::solve(const NodeVectors<Dim>& loads,
 }
 
 template <int Dim>
-NewtonSolution<Dim> EquilibriumSolver<Dim>::solve_prescribed(const NodeVectors<Dim>& loads,
-                                                             const NodeVectors<Dim>& prescribed,
-                                                             const NewtonLimits& limits) {
-  NewtonSolution<Dim> result;
-  result.displacement.assign(loads.size(), Vector<Dim>::Zero());
-  equilibrium_.displace(result.displacement, !is_elastic());
-  if (!prescribed.empty() && !prescribe(loads, prescribed, result.displacement)) return result;
-  iterate(loads, limits, result);
-  return result;
-}
-
-template <int Dim>
 void EquilibriumSolver<Dim>::iterate(const NodeVectors<Dim>& loads, const NewtonLimits& limits,
                                      NewtonSolution<Dim>& result) {
   for (;;) {
@@ -80,9 +68,7 @@ Eigen::VectorXd EquilibriumSolver<Dim>::unbalanced(const NodeVectors<Dim>& loads
 /// Drops what was kept if another body has another pattern.
 template <int Dim>
 void EquilibriumSolver<Dim>::share_pattern() {
-  if (!shares_pattern_ && !equilibrium_.share_pattern(kept_->pattern))
-    kept_->system = NewtonSystem();
-  shares_pattern_ = true;
+  if (!equilibrium_.share_pattern(kept_->pattern)) kept_->system = NewtonSystem();
 }
 
 /// Factorizes once, for the first system that the kept factor does not solve: a step without any
@@ -116,25 +102,6 @@ bool EquilibriumSolver<Dim>::find_step(const Eigen::VectorXd& force, double accu
   } catch (const NumericalError&) {
     return false;
   }
-  return true;
-}
-
-/// Moves the held nodes as prescribed, and the others by the linear model at the start: moving the
-/// held nodes alone would invert their elements. Returns false if an element would lose its volume.
-template <int Dim>
-bool EquilibriumSolver<Dim>::prescribe(const NodeVectors<Dim>& loads,
-                                       const NodeVectors<Dim>& prescribed,
-                                       NodeVectors<Dim>& displacement) {
-  displacement = prescribed;
-  unknowns().add(unknowns().components(prescribed), -1.0, displacement);
-  equilibrium_.find_tangents();
-  const Eigen::VectorXd force =
-      unbalanced(loads) - unknowns().components(equilibrium_.tangent_times(displacement));
-  Eigen::VectorXd step;
-  if (!find_step(force, best_accuracy, step)) return false;
-  unknowns().add(step, 1.0, displacement);
-  if (!equilibrium_.is_possible(displacement)) return false;
-  equilibrium_.displace(displacement, !is_elastic());
   return true;
 }
 

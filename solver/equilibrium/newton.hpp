@@ -56,15 +56,10 @@ class EquilibriumSolver {
   /// Leaves the equilibrium displaced by the solution. Throws NumericalError if nothing holds the
   /// soil.
   /// \param loads       per node, N
-  /// \param start       displacement to start from, m, which must be possible
+  /// \param start       displacement to start from, m, which must be possible; held directions keep
+  /// theirs
   NewtonSolution<Dim> solve(const NodeVectors<Dim>& loads, NodeVectors<Dim> start,
                             const NewtonLimits& limits = {});
-  /// Solves from rest with prescribed displacements.
-  /// \param prescribed  displacement over the step in held directions, m; empty: none. Components
-  /// in free directions are not used.
-  NewtonSolution<Dim> solve_prescribed(const NodeVectors<Dim>& loads,
-                                       const NodeVectors<Dim>& prescribed,
-                                       const NewtonLimits& limits = {});
 
   /// Unbalanced forces along free directions, at the last displacement: loads minus forces of the
   /// solid, N.
@@ -83,17 +78,14 @@ class EquilibriumSolver {
   bool improve_elastically(const NodeVectors<Dim>& loads, const Eigen::VectorXd& force,
                            NodeVectors<Dim>& displacement);
   bool find_step(const Eigen::VectorXd& force, double accuracy, Eigen::VectorXd& step);
-  bool prescribe(const NodeVectors<Dim>& loads, const NodeVectors<Dim>& prescribed,
-                 NodeVectors<Dim>& displacement);
   bool improve(const NodeVectors<Dim>& loads, const Eigen::VectorXd& force, double accuracy,
                int halvings, NodeVectors<Dim>& displacement);
 
   Equilibrium<Dim>& equilibrium_;
   std::shared_ptr<KeptStiffness<Dim>> kept_;
   Eigen::SparseMatrix<double> matrix_;
-  bool shares_pattern_ = false;  ///< whether the pattern is the kept one
-  bool factorised_ = false;      ///< whether the factor is that of this body
-  bool yields_ = false;          ///< whether the elastic stiffness has not been good enough
+  bool factorised_ = false;  ///< whether the factor is that of this body
+  bool yields_ = false;      ///< whether the elastic stiffness has not been good enough
 };
 
 }  // namespace suffuse

@@ -134,36 +134,6 @@ void SharedDilatation<Dim>::add(const std::vector<Tangent>& tangent,
   }
 }
 
-template <int Dim>
-void SharedDilatation<Dim>::add_tangent_times(const NodeVectors<Dim>& displacement,
-                                              const std::vector<double>& mean_ratio,
-                                              NodeVectors<Dim>& forces) const {
-  for (const Patch& patch : patches_) {
-    const double ratio = mean_ratio[patch.elements.front()];
-    double theta = 0.0;
-    double mean = 0.0;
-    double both = 0.0;
-    for (std::size_t k = 0; k < patch.elements.size(); ++k) {
-      const int e = patch.elements[k];
-      for (int a = 0; a <= Dim; ++a) {
-        const Vector<Dim>& u = displacement[patch.nodes[patch.places[k][a]]];
-        theta += share_[e] / ratio * tangent_[e].of_ratio.col(a).dot(u);
-        mean += tangent_[e].of_mean.col(a).dot(u);
-      }
-      both += tangent_[e].of_both;
-    }
-    mean += both * theta;
-    for (std::size_t k = 0; k < patch.elements.size(); ++k) {
-      const int e = patch.elements[k];
-      for (int a = 0; a <= Dim; ++a) {
-        forces[patch.nodes[patch.places[k][a]]] +=
-            theta * tangent_[e].of_forces.col(a) +
-            mean * share_[e] / ratio * tangent_[e].of_ratio.col(a);
-      }
-    }
-  }
-}
-
 template class SharedDilatation<2>;
 template class SharedDilatation<3>;
 

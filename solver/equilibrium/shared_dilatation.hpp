@@ -58,9 +58,6 @@ class SharedDilatation {
   void add_elastic(const Grid<Dim>& grid, const DisplacementUnknowns<Dim>& unknowns,
                    const std::vector<double>& stiffness, const StiffnessPattern<Dim>& pattern,
                    Eigen::SparseMatrix<double>& matrix) const;
-  /// Adds that derivative times a displacement, N.
-  void add_tangent_times(const NodeVectors<Dim>& displacement,
-                         const std::vector<double>& mean_ratio, NodeVectors<Dim>& forces) const;
 
  private:
   /// Nodes of a patch, and per element the places of its nodes among them.

@@ -6,7 +6,7 @@ template <int Dim>
 StepEquilibrium<Dim>::StepEquilibrium(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                       std::vector<PointSkeleton> skeleton,
                                       const Supports<Dim>& supports, int threads,
-                                      const NewtonLimits& limits, double soft,
+                                      const NewtonLimits& limits, const SoftStiffness& soft,
                                       std::shared_ptr<KeptStiffness<Dim>> kept)
     : grid_(grid),
       sorted_(grid.mesh.element_count(), points.element),

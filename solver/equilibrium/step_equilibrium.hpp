@@ -19,7 +19,7 @@ class StepEquilibrium {
   StepEquilibrium(
       const Grid<Dim>& grid, const SolidPoints<Dim>& points, std::vector<PointSkeleton> skeleton,
       const Supports<Dim>& supports, int threads, const NewtonLimits& limits = {},
-      double soft = soft_share,
+      const SoftStiffness& soft = {},
       std::shared_ptr<KeptStiffness<Dim>> kept = std::make_shared<KeptStiffness<Dim>>());
   StepEquilibrium(const StepEquilibrium&) = delete;
   StepEquilibrium& operator=(const StepEquilibrium&) = delete;

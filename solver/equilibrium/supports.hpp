@@ -32,7 +32,7 @@ class Supports {
   /// \param face_support  per face of the grid
   Supports(const Grid<Dim>& grid, const std::vector<Support>& face_support);
 
-  /// Holds a node in all directions; its displacement may be prescribed.
+  /// Holds a node in all directions.
   void hold(int node) { free_count_[node] = 0; }
   /// Holds the nodes of an element with a rigid skeleton; its faces do not move either.
   void hold_element(const Mesh<Dim>& mesh, int element);

@@ -250,10 +250,10 @@ void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
   constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
   constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-5, .goal = 1e-6};
   step.has_inertia = inertia_.acts();
-  // With inertia, a piece of soil connected by one node needs no soft stiffness.
   step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
       this->grid_, points_, skeletons(step.loss), supports_, this->threads_,
-      step.has_inertia ? in_motion : in_equilibrium, step.has_inertia ? 0.0 : soft_share, kept_);
+      step.has_inertia ? in_motion : in_equilibrium,
+      step.has_inertia ? soft_with_inertia : soft_in_steps, kept_);
   if (!step.has_inertia) {
     step.bubbles = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step.equilibrium);
     return;

@@ -14,9 +14,9 @@ namespace {
 /// Largest displacement of the elastic body in trials, over the size of the smallest element.
 constexpr double elastic_displacement = 1e-5;
 
-/// `soft_share` in trials: they apply all loads in one step, in which partially filled elements
-/// must not carry loads that the soil cannot.
-constexpr double soft_in_trials = 1e-6;
+/// Trials apply all loads in one step, in which partially filled elements must not carry loads
+/// that the soil cannot.
+constexpr SoftStiffness soft_in_trials{.gradient = 1e-6};
 /// Displacement that counts as none when the iterations of a trial end, over that of the elastic
 /// body.
 constexpr double still_share = 0.1;

@@ -23,7 +23,8 @@ test::Mode scene_of(const std::string& name) {
   std::stringstream text;
   text << in.rdbuf();
   std::string scene = text.str();
-  for (const std::string file : {"sec.geo", "negative-porosity-nan.geo", "sand-beside-rigid.geo"}) {
+  for (const std::string file :
+       {"sec.geo", "negative-porosity-nan.geo", "sand-beside-rigid.geo", "sinking-column.geo"}) {
     const auto at = scene.find("\"" + file);
     if (at != std::string::npos) scene.insert(at + 1, folder_of_scenes);
   }
@@ -152,6 +153,14 @@ TEST(BrokenScenes, SandBesideRigidSoilRests) {
   const SceneRun run("sand-beside-rigid");
   ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
   EXPECT_LT(run.results.history().column("displacement_max").back(), 1e-6);
+}
+
+/// Few points are left in the elements at its surface, which sinks by more than two elements.
+/// Drained soil without lateral strain is 0.7035 times as high under half of its modulus.
+TEST(BrokenScenes, AColumnWhoseSurfaceSinksThroughElementsKeepsItsEquilibrium) {
+  const SceneRun run("sinking-column");
+  ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+  EXPECT_NEAR(run.results.history().column("settlement_max").back(), 0.2965, 0.005);
 }
 
 }  // namespace broken_scenes_test

@@ -226,8 +226,6 @@ double tangent_error(const StressedBody<Dim>& body, double h) {
   Eigen::SparseMatrix<double> tangent;
   equilibrium.assemble(tangent);
   const Eigen::VectorXd product = tangent * equilibrium.unknowns().components(along);
-  const Eigen::VectorXd same = equilibrium.unknowns().components(equilibrium.tangent_times(along));
-  EXPECT_LE((product - same).norm(), 1e-13 * product.norm());
   return (product - differences).norm() / product.norm();
 }
 
@@ -253,16 +251,10 @@ TEST(Equilibrium, TangentIsSymmetricWhereDilatationIsShared) {
   const NodeVectors<3> somehow = body.some_displacement(0.01, 1);
   ASSERT_NE(equilibrium.law_increments(somehow), increments_of(body.grid, somehow));
   equilibrium.displace(body.some_displacement(0.01, 1), true);
-  const NodeVectors<3> one = body.some_displacement(0.1, 2);
-  const NodeVectors<3> other = body.some_displacement(0.1, 3);
-  const auto work = [&](const NodeVectors<3>& force, const NodeVectors<3>& along) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < force.size(); ++i) sum += force[i].dot(along[i]);
-    return sum;
-  };
-  const double there = work(equilibrium.tangent_times(one), other);
-  const double back = work(equilibrium.tangent_times(other), one);
-  EXPECT_NEAR(there, back, 1e-12 * std::abs(there));
+  Eigen::SparseMatrix<double> tangent;
+  equilibrium.assemble(tangent);
+  const Eigen::SparseMatrix<double> transposed = tangent.transpose();
+  EXPECT_LE((tangent - transposed).norm(), 1e-13 * tangent.norm());
 }
 
 TEST(CrossingForces, KeepTheBalanceAndFadeWhileWaterLeavesTheElements) {
@@ -371,17 +363,18 @@ TEST(Equilibrium, AffineDisplacementOfTheBorderGoesThroughAnIrregularMesh) {
   f << 0.7, 0.15, -0.1, 0.7;
   // The shift is inwards, so that no point leaves the mesh.
   const Vector<2> shift(0.05, 0.2);
-  NodeVectors<2> prescribed;
-  for (const Vector<2>& x : m.mesh.nodes) prescribed.emplace_back(shift + f * x - x);
-  const NodeVectors<2> wanted = prescribed;
+  NodeVectors<2> wanted;
+  for (const Vector<2>& x : m.mesh.nodes) wanted.emplace_back(shift + f * x - x);
   std::vector<int> held;
   for (int k = 0; k < m.grid.face_count(); ++k) {
     if (!m.grid.is_outer(k)) continue;
     for (const int i : m.grid.face_nodes[k]) held.push_back(i);
   }
-  // Prescribed values of free nodes are not used.
-  prescribed[8 * 3] = Vector<2>(99.0, 99.0);
-  const NewtonSolution<2> solution = m.step(m.no_loads(), prescribed, held);
+  NodeVectors<2> start = wanted;
+  for (int i = 0; i < m.mesh.node_count(); ++i) {
+    if (std::ranges::find(held, i) == held.end()) start[i] += 0.03 * std::sin(i) * shift;
+  }
+  const NewtonSolution<2> solution = m.step(m.no_loads(), start, held);
   ASSERT_TRUE(solution.converged);
   for (int i = 0; i < m.mesh.node_count(); ++i) {
     EXPECT_LE((solution.displacement[i] - wanted[i]).norm(), 1e-10) << i;

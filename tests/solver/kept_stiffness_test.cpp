@@ -28,8 +28,8 @@ class Block {
                               double stiffer = 1.0) {
     std::vector<PointSkeleton> skeleton = model_.skeleton;
     for (PointSkeleton& of_point : skeleton) of_point.parameters.young *= stiffer;
-    StepEquilibrium<2> step(model_.grid, model_.points, skeleton, *supports_, 1, {}, soft_share,
-                            kept);
+    StepEquilibrium<2> step(model_.grid, model_.points, skeleton, *supports_, 1, {},
+                            SoftStiffness(), kept);
     EXPECT_TRUE(step.solve(model_.weight(weight), {}));
     return step.displacement();
   }

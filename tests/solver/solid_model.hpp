@@ -116,13 +116,14 @@ class SolidModel {
   [[nodiscard]] SolidBody<Dim> body() const { return {grid, points, sorted, skeleton, *classes}; }
 
   /// Makes a step under these loads at its end; the points move if it converges.
-  NewtonSolution<Dim> step(const NodeVectors<Dim>& loads, const NodeVectors<Dim>& prescribed = {},
+  /// \param from  possible displacement, which held directions keep, m; empty: none
+  NewtonSolution<Dim> step(const NodeVectors<Dim>& loads, const NodeVectors<Dim>& from = {},
                            const std::vector<int>& held = {}) {
     Supports<Dim> supports(grid, face_support);
     for (const int i : held) supports.hold(i);
     Equilibrium<Dim> equilibrium(body(), supports, threads);
     NewtonSolution<Dim> solution =
-        EquilibriumSolver<Dim>(equilibrium).solve_prescribed(loads, prescribed, limits);
+        EquilibriumSolver<Dim>(equilibrium).solve(loads, from.empty() ? no_loads() : from, limits);
     if (!solution.converged) return solution;
     surface.move(grid, sorted, solution.displacement);
     move_points(grid, skeleton, solution.displacement,

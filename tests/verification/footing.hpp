@@ -106,11 +106,16 @@ inline double limit_load(const Footing& footing, int cells) {
   for (const int i : m.held) {
     down[i][1] = -footing.push * unit / FootingModel::young / footing.steps;
   }
+  Footing without_limit = footing;
+  without_limit.law = "elastic";
+  FootingModel elastic(without_limit, cells);
+  down = elastic.step(loads, down, elastic.held).displacement;  // a start near the first step
   int iterations = 0;
   for (int step = 0; step < footing.steps; ++step) {
     const NewtonSolution<2> solution = m.step(loads, down, m.held);
     if (!solution.converged) throw NumericalError("Newton's method did not converge");
     iterations += solution.iterations();
+    down = solution.displacement;  // a start near the next one
   }
   const Supports<2> supports(m.grid, m.face_support);
   Equilibrium<2> equilibrium(m.body(), supports, 1);
