@@ -118,7 +118,8 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
       elements_(elements_with_points(body)),
       unknowns_(supports, nodes_of(body.grid.mesh, elements_)) {
   const int count = body.grid.mesh.element_count();
-  soft_.assign(count, {.gradient = 0.0, .strain = 0.0});
+  soft_.assign(count, 0.0);
+  soft_strain_ = soft_;
   moved_.assign(count, Gradient::Zero());
   inverse_.assign(count, Gradient::Identity());
   ratio_.assign(count, 1.0);
@@ -143,10 +144,12 @@ void Equilibrium<Dim>::set_soft_stiffness(int e) {
   for (const int p : points) young += body_.skeleton[p].parameters.young;
   const double stiffness = (1.0 - body_.classes.full[e]) * body_.grid.volume[e] * young /
                            static_cast<double>(points.size());
-  soft_[e].gradient = body_.soft.gradient * stiffness;
-  if (std::ranges::none_of(points, [&](int p) { return body_.skeleton[p].law->yields(); })) {
-    soft_[e].strain = body_.soft.strain * stiffness;
-  }
+  soft_[e] = body_.soft.gradient * stiffness;
+  const auto yields = [&](int p) { return body_.skeleton[p].law->yields(); };
+  if (body_.soft.strain.empty() || std::ranges::any_of(points, yields)) return;
+  double largest = 0.0;
+  for (const int i : body_.grid.mesh.elements[e]) largest = std::max(largest, body_.soft.strain[i]);
+  soft_strain_[e] = largest * stiffness;
 }
 
 template <int Dim>
@@ -371,13 +374,12 @@ auto Equilibrium<Dim>::mean_moduli(int e) const -> Moduli {
 
 template <int Dim>
 auto Equilibrium<Dim>::soft_stress(int e) const -> Gradient {
-  return soft_[e].gradient * moved_[e] +
-         0.5 * soft_[e].strain * (moved_[e] + moved_[e].transpose());
+  return soft_[e] * moved_[e] + 0.5 * soft_strain_[e] * (moved_[e] + moved_[e].transpose());
 }
 
 template <int Dim>
 auto Equilibrium<Dim>::soft_tangent(int e) const -> Tangent {
-  return soft_[e].gradient * Tangent::Identity() + hooke_tangent<Dim>(0.0, 0.5 * soft_[e].strain);
+  return soft_[e] * Tangent::Identity() + hooke_tangent<Dim>(0.0, 0.5 * soft_strain_[e]);
 }
 
 template <int Dim>

@@ -30,14 +30,15 @@ struct SoftStiffness {
   /// Against the gradient: without it a piece of soil connected by one node can rotate freely, and
   /// Newton's method stalls.
   double gradient = 0.01;
-  /// Against the strain of soil that does not yield: without it little holds the nodes of a surface
-  /// that sinks through elements. Soil that yields would stand where it fails.
-  double strain = 0.0;
+  /// Against the strain of soil that does not yield, per node, of which the largest of an element
+  /// counts: without it little holds the nodes of a surface that sinks through elements. Soil that
+  /// yields would stand where it fails. Empty: none.
+  std::vector<double> strain = {};
 };
-/// In steps without inertia. All loads at once, as at the start, need the default.
-inline constexpr SoftStiffness soft_in_steps{.strain = 2.0};
 /// Inertia holds what one node connects.
-inline constexpr SoftStiffness soft_with_inertia{.gradient = 0.0};
+inline SoftStiffness soft_with_inertia() {
+  return {.gradient = 0.0};
+}
 
 /// The solid at the start of a step. Keeps references.
 template <int Dim>
@@ -182,7 +183,8 @@ class Equilibrium {
   NodeVectors<Dim> displacement_;    ///< the last displacement, m
   bool has_tangents_ = false;        ///< whether tangents are those of `displacement_`
   double least_force_ = 0.0;         ///< part of `force_scale`, N
-  std::vector<SoftStiffness> soft_;  ///< per element, Pa m3
+  std::vector<double> soft_;         ///< per element: stiffness against grad du, Pa m3 ...
+  std::vector<double> soft_strain_;  ///< ... and against its symmetric part
   SharedDilatation<Dim> dilatation_;
   std::vector<Gradient> moved_;      ///< grad du per element
   std::vector<Gradient> inverse_;    ///< F^-1 per element

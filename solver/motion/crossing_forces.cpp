@@ -28,6 +28,15 @@ void CrossingForces<Dim>::add(double duration, NodeVectors<Dim>& loads) const {
   }
 }
 
+template <int Dim>
+SoftStiffness CrossingForces<Dim>::soft_stiffness(double duration) const {
+  constexpr double stiffness = 2.0;
+  constexpr double times = 20.0;  // those of the forces
+  SoftStiffness result{.strain = fading_};
+  for (double& value : result.strain) value = stiffness * std::exp(-duration * value / times);
+  return result;
+}
+
 template class CrossingForces<2>;
 template class CrossingForces<3>;
 

@@ -31,6 +31,9 @@ class CrossingForces {
   void keep() { std::ranges::fill(fading_, 0.0); }
   /// Adds the forces that remain after `duration`, s.
   void add(double duration, NodeVectors<Dim>& loads) const;
+  /// Soft stiffness in a step without inertia. That against the strain fades, too, as drained soil
+  /// would settle late.
+  [[nodiscard]] SoftStiffness soft_stiffness(double duration) const;
 
   void archive(auto& archive) { archive(force_, fading_); }
 

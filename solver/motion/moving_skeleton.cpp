@@ -249,16 +249,16 @@ void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
   // Pressures of confined water magnify the residual.
   constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
   constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-5, .goal = 1e-6};
+  const double duration = step.forcing.duration;
   step.has_inertia = inertia_.acts();
   step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
       this->grid_, points_, skeletons(step.loss), supports_, this->threads_,
       step.has_inertia ? in_motion : in_equilibrium,
-      step.has_inertia ? soft_with_inertia : soft_in_steps, kept_);
+      step.has_inertia ? soft_with_inertia() : crossing_forces_.soft_stiffness(duration), kept_);
   if (!step.has_inertia) {
     step.bubbles = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step.equilibrium);
     return;
   }
-  const double duration = step.forcing.duration;
   step.mass = moved_masses(step);
   std::vector<double> of_element(this->grid_.mesh.element_count(), 0.0);
   for (int p = 0; p < points_.size(); ++p) {

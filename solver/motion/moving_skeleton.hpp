@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "boundary/boundary_loads.hpp"
-#include "motion/construction_forces.hpp"
+#include "equilibrium/construction_forces.hpp"
 #include "motion/motion_step.hpp"
 #include "motion/moved_soil.hpp"
 #include "motion/region_gains.hpp"

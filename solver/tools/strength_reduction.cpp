@@ -16,7 +16,7 @@ constexpr double elastic_displacement = 1e-5;
 
 /// Trials apply all loads in one step, in which partially filled elements must not carry loads
 /// that the soil cannot.
-constexpr SoftStiffness soft_in_trials{.gradient = 1e-6};
+const SoftStiffness soft_in_trials{.gradient = 1e-6};
 /// Displacement that counts as none when the iterations of a trial end, over that of the elastic
 /// body.
 constexpr double still_share = 0.1;

@@ -268,6 +268,7 @@ TEST(CrossingForces, KeepTheBalanceAndFadeWhileWaterLeavesTheElements) {
   NodeVectors<2> carried = loads;
   crossing.add(0.0, carried);
   EXPECT_EQ(carried[7], loads[7]);  // there are no crossing forces yet
+  EXPECT_TRUE(crossing.soft_stiffness(0.0).strain.empty());
   // Slow drainage on the left, fast on the right. The height of every element is 1/sqrt(20).
   std::vector<double> diffusivity;
   for (int e = 0; e < body.mesh.element_count(); ++e) {
@@ -283,6 +284,7 @@ TEST(CrossingForces, KeepTheBalanceAndFadeWhileWaterLeavesTheElements) {
       const double drainage = 1.0 / (20.0 * (x < 0.6 ? 0.01 : 0.02));  // h^2/c_v, s
       const double left = std::exp(-duration / (CrossingForces<2>::drainage_times * drainage));
       EXPECT_NEAR((carried[i] - (loads[i] + left * (forces[i] - loads[i]))).norm(), 0.0, 1e-9);
+      EXPECT_NEAR(crossing.soft_stiffness(duration).strain[i], 2.0 * std::pow(left, 0.05), 1e-14);
     }
   }
 }

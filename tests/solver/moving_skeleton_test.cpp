@@ -380,7 +380,7 @@ TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
   BoundaryLoads<2> boundary(b.grid, b.soils,
                             PointsByElement(b.grid.mesh.element_count(), points.element));
   for (int k = 1; k <= 40; ++k) {
-    StepEquilibrium<2> step(b.grid, points, skeleton, supports, 1, {}, soft_in_steps);
+    StepEquilibrium<2> step(b.grid, points, skeleton, supports, 1);
     NodeVectors<2> loads(b.input.mesh.node_count(), Vector<2>::Zero());
     boundary.add(step.sorted(), soil_volumes(points, step.sorted(), step.classes()), k / 40.0,
                  loads);
