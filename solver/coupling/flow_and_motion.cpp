@@ -31,9 +31,10 @@ constexpr double longest_growth = 10.0;
 /// the error that the step may have ...
 constexpr double share_of_rise = 1e-3;
 constexpr double share_of_tolerance = 0.03;
-/// ... plus this share of the largest pressure, plus a share of the largest stress and of that of
-/// the stiffest soil at `Equilibrium::least_strain`: the solid is in equilibrium up to a hundredth
-/// of that (`NewtonLimits::tolerance`), which a loose surface magnifies.
+/// ... plus this share of the largest pressure, plus this share of a stress: the largest one plus
+/// that of the stiffest soil at `Equilibrium::least_strain`. The forces of the solid balance to a
+/// hundredth of that (`NewtonLimits::tolerance`). At a loose surface the pressure has a larger
+/// error than these forces.
 constexpr double accuracy_of_pressure = 1e-7;
 constexpr double accuracy_of_stress = 1e-8;
 /// Accuracy with inertia, relative to the largest change plus the largest pressure: pressures of

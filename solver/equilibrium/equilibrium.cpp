@@ -139,6 +139,7 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
 
 template <int Dim>
 void Equilibrium<Dim>::set_soft_stiffness(int e) {
+  if (body_.classes.full[e] == 1.0) return;
   const auto& points = body_.sorted.of(e);
   double young = 0.0;
   for (const int p : points) young += body_.skeleton[p].parameters.young;

@@ -65,11 +65,11 @@ Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& dis
 ///     R_u = sum_e [scale sum_p V_0 tau F^-T + S_e - p V_e J F^-T] grad N - loads
 ///           + M (du - dt v*)/dt^2 where inertia counts (backward Euler)
 ///
-/// with the stress S_e of the soft stiffness, the Kirchhoff stress tau of each point by its law, J
-/// = det F and the pore pressure p of the element (docs/theory/moving-soil.md, "Equilibrium of the
-/// solid"). Where elements share their dilatation, laws see (Jm/J)^(1/d) F with the mean ratio Jm
-/// of `SharedDilatation`, and the forces are those of the same work. Contributions of elements are
-/// added in the order of the elements: the same bits on any number of threads.
+/// tau is the Kirchhoff stress of a point by its law, S_e the stress of the soft stiffness, p the
+/// pore pressure of the element and J = det F (docs/theory/moving-soil.md, "Equilibrium of the
+/// solid"). Where elements share their dilatation, laws see (Jm/J)^(1/d) F. Jm is the mean ratio of
+/// `SharedDilatation`; the forces do the same work as the laws. Contributions of elements are added
+/// in the order of the elements: the same bits on any number of threads.
 template <int Dim>
 class Equilibrium {
  public:

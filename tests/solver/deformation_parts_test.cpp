@@ -178,7 +178,8 @@ struct StressedBody {
   }
 
   [[nodiscard]] Equilibrium<Dim> equilibrium() const {
-    return Equilibrium<Dim>({grid, points, sorted, skeleton, classes}, supports, 1);
+    const SoftStiffness soft{.strain = std::vector<double>(mesh.node_count(), 2.0)};
+    return Equilibrium<Dim>({grid, points, sorted, skeleton, classes, soft}, supports, 1);
   }
   [[nodiscard]] NodeVectors<Dim> some_displacement(double amount, unsigned seed) const {
     std::mt19937_64 random(seed);
