@@ -79,6 +79,16 @@ std::vector<double> fines_content(const ResultsReader& results, std::size_t inde
   return values;
 }
 
+std::vector<double> fines_left(const ResultsReader& results, std::size_t index,
+                               const std::string& where) {
+  std::vector<double> values = results.field(index, where, "erodible_fraction").values;
+  const std::vector<double> start = results.field(0, where, "erodible_fraction").values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = start[i] > 0.0 ? values[i] / start[i] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return values;
+}
+
 /// At the vertices of elements: n S - n_f.
 std::vector<double> water_at_vertices(const ResultsReader& results, std::size_t index) {
   std::vector<double> values = results.field(index, "element_vertex", "porosity").values;
@@ -108,6 +118,11 @@ struct DerivedField {
   std::string unit;
   std::string needs;
   std::function<std::vector<double>(const ResultsReader&, std::size_t)> values;
+  bool is_of_rigid_soil = false;
+
+  [[nodiscard]] bool is_on(const std::string& place, const ResultsReader& results) const {
+    return where == place && !(is_of_rigid_soil && results.scene().scene.moves());
+  }
 };
 
 const std::vector<DerivedField>& derived_fields() {
@@ -120,6 +135,10 @@ const std::vector<DerivedField>& derived_fields() {
        [](const auto& results, auto index) { return fines_content(results, index, "cell"); }},
       {"solid", "fines_content", "1", "erodible_fraction",
        [](const auto& results, auto index) { return fines_content(results, index, "solid"); }},
+      {"cell", "fines_left", "1", "erodible_fraction",
+       [](const auto& results, auto index) { return fines_left(results, index, "cell"); }, true},
+      {"solid", "fines_left", "1", "erodible_fraction",
+       [](const auto& results, auto index) { return fines_left(results, index, "solid"); }, true},
       {"element_vertex", "water_fraction", "1", "fines_fraction", water_at_vertices},
       {"cell", "safety", "1", "hydraulic_gradient", safety}};
   return fields;
@@ -135,7 +154,8 @@ std::vector<std::string> all_field_names(const ResultsReader& results, std::size
     return std::ranges::find(stored, name) != stored.end();
   };
   for (const DerivedField& field : derived_fields()) {
-    if (field.where == where && has(field.needs) && !has(field.name)) names.push_back(field.name);
+    if (!field.is_on(where, results) || !has(field.needs) || has(field.name)) continue;
+    names.push_back(field.name);
   }
   return names;
 }
@@ -144,7 +164,7 @@ Field any_field(const ResultsReader& results, std::size_t index, const std::stri
                 const std::string& name) {
   if (!is_stored(results, index, where, name)) {
     for (const DerivedField& field : derived_fields()) {
-      if (field.where == where && field.name == name) {
+      if (field.is_on(where, results) && field.name == name) {
         const int components = where == "element_vertex" ? results.dimension() + 1 : 1;
         return {name, field.unit, components, field.values(results, index)};
       }

@@ -48,7 +48,7 @@ class DerivedFields : public ::testing::Test {
       flux.values.insert(flux.values.end(), {0.0, 2e-3 * up});
     }
     s.cell = {{"porosity", "1", 1, same(porosity)},
-              {"erodible_fraction", "1", 1, same(erodible)},
+              {"erodible_fraction", "1", 1, same(t > 0.0 ? 0.25 * erodible : erodible)},
               {"pressure", "Pa", 1, same(981.0)},
               gradient,
               flux};
@@ -69,6 +69,8 @@ TEST_F(DerivedFields, FollowFromStoredOnes) {
   EXPECT_NEAR(any_field(run, 0, "node", "head").values[3], 0.2, 1e-15);
   EXPECT_EQ(any_field(run, 0, "cell", "saturation").values, std::vector<double>(8, 1.0));
   EXPECT_NEAR(any_field(run, 0, "cell", "fines_content").values[0], 0.2, 1e-15);
+  EXPECT_EQ(any_field(run, 0, "cell", "fines_left").values, std::vector<double>(8, 1.0));
+  EXPECT_EQ(any_field(run, 1, "cell", "fines_left").values, std::vector<double>(8, 0.25));
   const std::vector<double> safety = any_field(run, 0, "cell", "safety").values;
   EXPECT_NEAR(safety[3], critical / 0.4, 1e-12);
   EXPECT_TRUE(std::isinf(safety[7]));
