@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/errors.hpp"
+#include "common/short_number.hpp"
 #include "grid/parallel.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
@@ -64,9 +65,8 @@ double FlowSolver<Dim>::next_breakpoint(double start, double latest) const {
 
 template <int Dim>
 void FlowSolver<Dim>::refuse_dry(int element, double time) const {
-  std::ostringstream message;
-  message << element_text(grid_, element) << " has no water left at t = " << time << " s";
-  throw NumericalError(message.str());
+  throw NumericalError(element_text(grid_, element) +
+                       " has no water left at t = " + short_number(time) + " s");
 }
 
 template <int Dim>
@@ -75,11 +75,10 @@ void FlowSolver<Dim>::refuse_locked(double time, const std::vector<double>& conc
   together(grid_.ranks(), [&] {
     const auto richest = std::ranges::max_element(concentration);
     if (*richest < most) return;
-    std::ostringstream message;
-    message << "fluidised grains lock: concentration " << *richest << " in "
-            << element_text(grid_, static_cast<int>(richest - concentration.begin()))
-            << " at t = " << time << " s, where the liquid flows below c_m = " << most << " only";
-    throw NumericalError(message.str());
+    throw NumericalError("fluidised grains lock: concentration " + short_number(*richest) + " in " +
+                         element_text(grid_, static_cast<int>(richest - concentration.begin())) +
+                         " at t = " + short_number(time) +
+                         " s, where the liquid flows below c_m = " + short_number(most) + " only");
   });
 }
 
@@ -111,11 +110,15 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
   result.quadratic_drag.resize(grain_size_.size());
   result.face_concentration = face_concentration;
   const double water_density = scene_.liquid.density;
+  const bool has_air = soils_.free_space().drains() && !skeleton_.filling().empty();
   for_each_index(elements, threads_, [&](int e) {
     const double porosity = pores.porosity[e];
     const double concentration = pores.concentration[e];
     const ExchangeModel& model = soils_.exchange_of_element(e);
-    result.mixture_density[e] = mixture_density(concentration, water_density, grain_density_);
+    // Fines in air, which conducts well, would drive water in circles: only those in soil weigh.
+    const double weighs = !has_air ? 1.0 : soils_.is_soil(e) ? skeleton_.filling()[e].share : 0.0;
+    result.mixture_density[e] =
+        mixture_density(weighs * concentration, water_density, grain_density_);
     const SurfaceSoil soil = surface_soil(e, porosity);
     result.drag[e] =
         darcy_drag(porosity, water_density,

@@ -299,7 +299,7 @@ const SolidMotion& MovingSkeleton<Dim>::solve(MotionStep<Dim>& step,
   if (!motion.converged) motion.worst_node = equilibrium.worst_node();
   motion.iterations = equilibrium.iterations();
   step.iterations += motion.iterations;
-  motion.travel = largest_travel(this->grid_, equilibrium.sorted(), equilibrium.displacement());
+  motion.travel = largest_travel(this->grid_, points_, equilibrium.displacement());
   motion.converged = motion.converged && motion.travel <= step.forcing.longest_travel;
   motion.face_volume = swept_volumes(this->grid_, equilibrium.sorted(), equilibrium.displacement());
   std::vector<double> change = pressure;

@@ -61,13 +61,13 @@ void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skelet
 }
 
 template <int Dim>
-double largest_travel(const Grid<Dim>& grid, const PointsByElement& sorted,
+double largest_travel(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                       const NodeVectors<Dim>& displacement) {
   double largest = 0.0;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    if (sorted.is_empty(e)) continue;
-    double moved = 0.0;
-    for (const int i : grid.mesh.elements[e]) moved = std::max(moved, displacement[i].norm());
+  for (int p = 0; p < points.size(); ++p) {
+    const int e = points.element[p];
+    const PointPlace<Dim> place{e, barycentric(grid.mesh, e, points.position[p])};
+    const double moved = displacement_at(grid, place, displacement).norm();
     largest = std::max(largest, steepest_shape(grid, e) * moved);
   }
   return largest;
@@ -77,7 +77,7 @@ template void move_points(const Grid<2>&, const std::vector<PointSkeleton>&, con
                           const Increments<2>&, SolidPoints<2>&, int);
 template void move_points(const Grid<3>&, const std::vector<PointSkeleton>&, const NodeVectors<3>&,
                           const Increments<3>&, SolidPoints<3>&, int);
-template double largest_travel(const Grid<2>&, const PointsByElement&, const NodeVectors<2>&);
-template double largest_travel(const Grid<3>&, const PointsByElement&, const NodeVectors<3>&);
+template double largest_travel(const Grid<2>&, const SolidPoints<2>&, const NodeVectors<2>&);
+template double largest_travel(const Grid<3>&, const SolidPoints<3>&, const NodeVectors<3>&);
 
 }  // namespace suffuse

@@ -17,10 +17,10 @@ void move_points(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skelet
                  const NodeVectors<Dim>& displacement, const Increments<Dim>& increments,
                  SolidPoints<Dim>& points, int threads);
 
-/// Largest displacement of an element's node over the smallest height of the element, among
-/// elements with points: a step should stay below 1/4.
+/// Largest displacement of a point over the smallest height of its element: a step should stay
+/// below 1/4. Nodes outside the soil, which hardly carry any of it, may move farther.
 template <int Dim>
-double largest_travel(const Grid<Dim>& grid, const PointsByElement& sorted,
+double largest_travel(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                       const NodeVectors<Dim>& displacement);
 
 }  // namespace suffuse

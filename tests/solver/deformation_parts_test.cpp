@@ -419,6 +419,21 @@ TEST(PointMotion, RefusesAPointThatLeavesTheMeshAndKeepsTheOthers) {
   EXPECT_EQ(m.points.position, before);
 }
 
+/// A node of the air above soil that bulges into its elements has next to no soil to move.
+TEST(PointMotion, TravelsWithTheShareOfTheNodesThatMove) {
+  PlaneModel m(model::column_mesh(1, 1), 1, model::elastic_soil(1e6, 0.3));
+  const int e = m.points.element[0];
+  const auto& nodes = m.mesh.elements[e];
+  constexpr double share = 0.05;
+  m.points.position[0] = (1.0 - share) * m.mesh.nodes[nodes[0]] + share * m.mesh.nodes[nodes[1]];
+  NodeVectors<2> displacement(m.mesh.node_count(), Vector<2>::Zero());
+  displacement[nodes[1]] = Vector<2>(0.3, -0.4);
+  for (int p = 1; p < m.points.size(); ++p) m.points.element[p] = e;
+  for (int p = 1; p < m.points.size(); ++p) m.points.position[p] = m.mesh.nodes[nodes[2]];
+  EXPECT_NEAR(largest_travel(m.grid, m.points, displacement),
+              share * 0.5 * steepest_shape(m.grid, e), 1e-15);
+}
+
 TEST(PointMotion, SoilMayRiseALittleOverTheBorder) {
   PlaneModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
   const std::vector<Vector<2>> before = m.points.position;

@@ -61,7 +61,7 @@ class InertialMotion {
   void archive(auto& archive) { archive(velocities_, next_); }
 
  private:
-  [[nodiscard]] double first_try(const PointsByElement& sorted, const NodalMotion<Dim>& nodes,
+  [[nodiscard]] double first_try(const SolidPoints<Dim>& points, const NodalMotion<Dim>& nodes,
                                  double longest) const;
   void plan_next(const InertialStep& step);
   void find_shear_rates(const Increments<Dim>& increments, const SolidPoints<Dim>& points,
@@ -99,9 +99,9 @@ NodeVectors<Dim> coasting(const DisplacementUnknowns<Dim>& unknowns, const Nodal
 }
 
 template <int Dim>
-double InertialMotion<Dim>::first_try(const PointsByElement& sorted, const NodalMotion<Dim>& nodes,
+double InertialMotion<Dim>::first_try(const SolidPoints<Dim>& points, const NodalMotion<Dim>& nodes,
                                       double longest) const {
-  const double travel = largest_travel(grid_, sorted, nodes.velocity);  // per second
+  const double travel = largest_travel(grid_, points, nodes.velocity);  // per second
   double dt = next_ > 0.0 ? std::min(next_, longest) : longest;
   if (travel * dt > limits_.max_travel) dt = limits_.max_travel / travel;
   return dt;
@@ -138,7 +138,7 @@ InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
   // Inertia supports a piece of soil that is connected by one node.
   Equilibrium<Dim> equilibrium({grid_, points, sorted, skeleton, classes, 0.0}, supports_,
                                threads_);
-  InertialStep result{.duration = first_try(sorted, nodes, longest)};
+  InertialStep result{.duration = first_try(points, nodes, longest)};
   for (;; result.duration *= 0.5) {
     const double dt = result.duration;
     if (dt < limits_.shortest) refuse(limits_.shortest);
@@ -149,7 +149,7 @@ InertialStep InertialMotion<Dim>::step(SolidPoints<Dim>& points,
     EquilibriumSolver<Dim> solver(equilibrium);
     const NewtonSolution<Dim> solution = solver.solve(loads, std::move(start), limits_.newton);
     if (!solution.converged) continue;
-    if (largest_travel(grid_, sorted, solution.displacement) > 1.5 * limits_.max_travel) continue;
+    if (largest_travel(grid_, points, solution.displacement) > 1.5 * limits_.max_travel) continue;
     result.iterations = solution.iterations();
     result.inertia_share = equilibrium.inertia_norm() / norm<Dim>(loads);
     find_shear_rates(increments_of(grid_, solution.displacement), points, dt);

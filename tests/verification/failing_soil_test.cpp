@@ -116,6 +116,42 @@ TEST(Air, LeavesTheSoilBelowItItsWeightAndItsSuction) {
   }
 }
 
+/// Water that rises out of soil brings fines into the air. Heavy drops next to light ones would
+/// drive it in circles there, in a new way in each step: only fines in soil weigh.
+TEST(Air, IsNotStirredByFines) {
+  constexpr double surface = 0.5;
+  Scene scene = basin(0.4);
+  scene.boundaries.back() = fixed_on("top", Fixing::none);
+  scene.boundaries[2].head = TimeFunction(0.7);
+  scene.boundaries[2].concentration = TimeFunction(0.0);
+  scene.soils[0].skeleton = model::elastic_soil(1e8, 0.0);
+  scene.soils[0].retention = model::van_genuchten(3.0, 2.5);
+  scene.soils[0].conductivity = 1e-3;
+  scene.soils[0].erosion.law = erosion_law("constant");
+  scene.soils[0].erosion.rate = 1e-4;
+  scene.time.end = 600.0;
+  model::ModelRun run(
+      model::make_case(under_water(model::crossed_mesh(2, 8, 0.125, 1.0),
+                                   [](const Vector<2>& x) { return x[1] < surface; }),
+                       scene));
+  const auto moments = run.run({600.0}, true);
+  const Field& concentration =
+      *std::ranges::find(moments.snapshots.back().cell, "concentration", &Field::name);
+  const Mesh<2>& mesh = run.input().mesh;
+  const std::vector<double>& density = run.model().flow().coefficients().mixture_density;
+  double richest_air = 0.0;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const bool is_soil = element_centroid(mesh, e)[1] < surface;
+    if (!is_soil) richest_air = std::max(richest_air, concentration.values[e]);
+    if (is_soil) {
+      EXPECT_GT(density[e], scene.liquid.density);
+    } else {
+      EXPECT_EQ(density[e], scene.liquid.density);
+    }
+  }
+  EXPECT_GT(richest_air, 1e-3);
+}
+
 /// A bank of 1 m with a slope of 45 degrees that loses strength with its fines.
 Scene bank() {
   Scene scene = basin(1.25);
