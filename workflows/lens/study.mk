@@ -32,7 +32,6 @@ $(eval $(call run_rules,$(slide_lens_out)/section,examples/lens-slide/lens-slide
 lens_slide_picture = $(call draw,lens_slide_pictures,$(addprefix $(slide_lens_out)/,$1),$(slide_lens_out)/$2,$3)
 $(call lens_slide_picture,model.png,levee,figure model RESULTS)
 $(call lens_slide_picture,$(call both,cut),levee,render RESULTS --field porosity --cut y=0 --vectors --range 0.3:0.45)
-$(call lens_slide_picture,porous.png,levee,render RESULTS --field porosity --iso 0.4)
 $(call lens_slide_picture,$(call both,section),section,render RESULTS --field displacement --on solid)
 
 $(call draw,lens_slide_pictures,$(call both,$(slide_lens_out)/displacement),$(slide_lens_out)/levee $(slide_lens_out)/section,figure curves displacement_max RESULTS --time-unit h)
