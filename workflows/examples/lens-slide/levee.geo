@@ -5,9 +5,8 @@ half = 5;
 height = 2.5;
 coarse = 1.4;
 fine = 0.7;
-// With Gmsh's default algorithm the smallest angle is 2 degrees, not 15.
+// With Gmsh's default algorithm the smallest angle is 2 degrees, not 12.
 Mesh.Algorithm3D = 10;
-Mesh.OptimizeThreshold = 0.6;
 Point(1) = {2, 0, -3, coarse};
 Point(2) = {26, 0, -3, coarse};
 Point(3) = {26, 0, 0, coarse};
