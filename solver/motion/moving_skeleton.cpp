@@ -37,6 +37,22 @@ std::vector<double> losses(const std::vector<double>& volume, const std::vector<
   return loss;
 }
 
+/// Whether points move too far in a step: farther than allowed, or, with inertia, farther than at
+/// their velocities by more than a fifth of an element. The forces at the end of such a step are
+/// not those on the way.
+template <int Dim>
+bool is_too_far(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                const MotionStep<Dim>& step) {
+  constexpr double max_gain = 0.2;
+  if (step.motion.travel > step.forcing.longest_travel) return true;
+  if (!step.has_inertia) return false;
+  NodeVectors<Dim> gained = step.equilibrium->displacement();
+  for (std::size_t i = 0; i < gained.size(); ++i) {
+    gained[i] -= step.forcing.duration * step.nodes.velocity[i];
+  }
+  return largest_travel(grid, points, gained) > max_gain;
+}
+
 /// Time in which soil falls through an element of mean size, s; 0 without gravity.
 template <int Dim>
 double fall_through_element(const Mesh<Dim>& mesh, const Scene& scene) {
@@ -300,7 +316,7 @@ const SolidMotion& MovingSkeleton<Dim>::solve(MotionStep<Dim>& step,
   motion.iterations = equilibrium.iterations();
   step.iterations += motion.iterations;
   motion.travel = largest_travel(this->grid_, points_, equilibrium.displacement());
-  motion.converged = motion.converged && motion.travel <= step.forcing.longest_travel;
+  motion.converged = motion.converged && !is_too_far(this->grid_, points_, step);
   motion.face_volume = swept_volumes(this->grid_, equilibrium.sorted(), equilibrium.displacement());
   std::vector<double> change = pressure;
   for (std::size_t e = 0; e < change.size(); ++e) change[e] -= pressure_[e];

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <iostream>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -198,6 +199,26 @@ TEST(MovingSkeleton, RefusesAStepThatPassesElements) {
   EXPECT_GT(motion.travel, max_travel);
   EXPECT_FALSE(motion.converged);
   EXPECT_LT(b.move(b.forcing(0.02, 0.02)).travel, max_travel);
+}
+
+/// Soil that falls freely gains g t^2 in the first step, and as much more in the next one.
+TEST(MovingSkeleton, RefusesAStepThatGainsAFifthOfAnElementWithInertia) {
+  Scene scene = oedometer_scene(model::elastic_soil(1e6, 0.0), 0.0);
+  scene.boundaries = {held("left"), held("right")};
+  scene.gravity = {0.0, -10.0, 0.0};
+  Body b(model::column_mesh(2, 10, 0.2, 1.0, [](const Vector<2>& x) { return x; }), scene);
+  b.solid.start_inertia();
+  const double height = 0.1 / std::numbers::sqrt2;  // of an element
+  const double quarter = std::sqrt(0.25 * height / 10.0);
+  const SolidMotion& motion = b.move(b.forcing(quarter, quarter));
+  EXPECT_NEAR(motion.travel, 0.25, 1e-8);
+  EXPECT_FALSE(motion.converged);
+  const double seventh = std::sqrt(0.14 * height / 10.0);
+  ASSERT_TRUE(b.move(b.forcing(seventh, seventh)).converged);
+  b.solid.take_velocities(*b.step);
+  b.commit();
+  EXPECT_TRUE(b.move(b.forcing(2.0 * seventh, seventh)).converged);
+  EXPECT_NEAR(b.step->motion.travel, 0.28, 1e-8);
 }
 
 // ----------------------------------------------------------------------------------------- fluxes
