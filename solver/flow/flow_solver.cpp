@@ -37,9 +37,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
   std::ranges::sort(kinks_);
   breakpoints_.insert(breakpoints_.end(), kinks_.begin(), kinks_.end());
   std::ranges::sort(breakpoints_);
-  const bool ergun = std::any_of(scene_.soils.begin(), scene_.soils.end(),
-                                 [](const Soil& s) { return s.drag == SoilDrag::ergun; });
-  if (!ergun) return;
+  if (std::ranges::find(scene_.soils, SoilDrag::ergun, &Soil::drag) == scene_.soils.end()) return;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const Soil& soil = soils_.soil_of_element(e);
     const bool has_ergun = soil.drag == SoilDrag::ergun;

@@ -41,6 +41,11 @@ std::vector<double> drag_losses(const Scene& scene, const Grid<Dim>& grid,
   return result;
 }
 
+/// A breakpoint at `time`, the end of a step or a stage after `start`, is not yet in effect.
+double just_before(double start, double time) {
+  return time - implicit_thresholds.end_margin * (time - start);
+}
+
 /// First step of soil that moves from the start, over the time of its change.
 constexpr double first_step_of_soil = 1e-2;
 
@@ -52,9 +57,7 @@ MixedFlow<Dim> flow_of(const EarlierFlow<Dim>& earlier, const Grid<Dim>& grid,
   MixedFlow<Dim> flow = flow_at_rest(grid, conditions, earlier.face_pressure(grid));
   flow.face_flux = flow.flux_through = earlier.state.face_flux;
   flow.state.velocity = element_flux(grid, flow.face_flux);
-  for (std::size_t e = 0; e < flow.state.velocity.size(); ++e) {
-    flow.state.velocity[e] /= porosity[e];
-  }
+  for (std::size_t e = 0; e < porosity.size(); ++e) flow.state.velocity[e] /= porosity[e];
   return flow;
 }
 
@@ -219,7 +222,9 @@ bool ImplicitFlow<Dim>::accepts(const FlowInterval<Dim>& interval, FlowStep<Dim>
   if (!control_.accept(step.start, error, previous_.has_value(), step.dt)) return false;
   if (scheme_.iterations() > implicit_thresholds.slow_iterations) control_.hold(step.dt);
   if (solid_.has_inertia()) control_.hold(implicit_thresholds.inertial_growth * step.dt);
-  if (follows_pores_) step.expected = coefficients_at(interval, step.start + step.dt);
+  if (follows_pores_) {
+    step.expected = interval.pores.at(just_before(step.start, step.start + step.dt));
+  }
   return true;
 }
 
@@ -239,6 +244,10 @@ void ImplicitFlow<Dim>::plan_anew(const FlowInterval<Dim>& interval, FlowStep<Di
 template <int Dim>
 FlowProgress ImplicitFlow<Dim>::commit(FlowStep<Dim> step) {
   const double end = step.dt < step.until - step.start ? step.start + step.dt : step.until;
+  if (step.expected) {
+    step.expected->open(step.room_gained, this->grid().volume);
+    blending_.expect(coefficients_at(just_before(step.start, end), *std::move(step.expected)));
+  }
   FlowProgress progress{1, step.dt, end, {}, std::move(step.room_gained), std::move(step.relative)};
   add_displaced_air(now_.state.air, step.found.end.air, progress.room_gained);
   progress.volumes = face_volumes(this->grid(), now_.state.face_pressure, pressure_, step.found,
@@ -247,7 +256,6 @@ FlowProgress ImplicitFlow<Dim>::commit(FlowStep<Dim> step) {
     const FlowForcing<Dim>& forcing = step.forcing.back();
     if (!forcing.source.empty()) relaxation_.set_source(forcing.source);
     blending_.record(forcing.coefficients);
-    if (step.expected) blending_.expect(*std::move(step.expected));
   }
   this->update_boundary_values(
       step.start, end, this->boundary_values().reservoir_rates(step.found.face_volume, step.dt));
@@ -271,7 +279,9 @@ void ImplicitFlow<Dim>::set_forcing(const FlowInterval<Dim>& interval, FlowStep<
   for (std::size_t stage = 0; stage < shares.size(); ++stage) {
     FlowForcing<Dim>& forcing = step.forcing[stage];
     const double time = step.start + shares[stage] * step.dt;
-    forcing.coefficients = follows_pores_ ? coefficients_at(interval, time) : this->coefficients_;
+    const double before = just_before(interval.start, time);
+    forcing.coefficients =
+        follows_pores_ ? coefficients_at(before, interval.pores.at(before)) : this->coefficients_;
     blending_.blend(time - step.start, this->coefficients_, forcing.coefficients);
     if (scheme_.soils().air_moves()) {
       keep_pores(this->coefficients_.porosity, forcing.coefficients);
@@ -283,17 +293,13 @@ void ImplicitFlow<Dim>::set_forcing(const FlowInterval<Dim>& interval, FlowStep<
 }
 
 template <int Dim>
-FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(const FlowInterval<Dim>& interval,
-                                                         double time) const {
-  // A breakpoint at the end of the step is not yet in effect.
-  const double before = time - implicit_thresholds.end_margin * (time - interval.start);
-  PoreState pores = interval.pores.at(before);
+FlowCoefficients<Dim> ImplicitFlow<Dim>::coefficients_at(double time, PoreState pores) const {
   if (this->scene().liquid.viscosity_model.depends_on_concentration()) {
     // Without transport the forecast may reach concentrations that moving liquid does not.
     const double most = 0.999 * this->scene().liquid.viscosity_model.maximum_concentration;
     for (double& c : pores.concentration) c = std::min(c, most);
   }
-  return this->coefficients_of(before, pores, this->coefficients_.face_concentration);
+  return this->coefficients_of(time, pores, this->coefficients_.face_concentration);
 }
 
 template <int Dim>
@@ -404,9 +410,7 @@ void ImplicitFlow<Dim>::update(double time, const PoreState& pores,
     const double error = blending_.learn(
         this->grid(), this->coefficients_, dt, weight,
         drag_losses(this->scene(), this->grid(), now_.face_flux, this->coefficients_));
-    // Motion of the soil changes them too, and the expectation leaves motion out.
-    const bool shown = solid_.has_inertia() || scheme_.soils().air_moves();
-    if (!shown) control_.account_for(0.5 * error);
+    if (!scheme_.soils().air_moves()) control_.account_for(0.5 * error);
   }
   reuse_.check(this->coefficients_);
 }

@@ -122,9 +122,8 @@ class ImplicitFlow final : public FlowSolver<Dim> {
       scheme_.follow(flow_soils(this->scene(), solid_.soils(), solid_.filling()));
     }
   }
-  /// Coefficients at a time within the interval, changed by erosion alone.
-  [[nodiscard]] FlowCoefficients<Dim> coefficients_at(const FlowInterval<Dim>& interval,
-                                                      double time) const;
+  /// Coefficients with pores that are forecast for a time.
+  [[nodiscard]] FlowCoefficients<Dim> coefficients_at(double time, PoreState pores) const;
   [[nodiscard]] double error_of(const MixedStep<Dim>& step, double start, double dt) const;
   /// The steady flow over `dt` more seconds, with sources for the expansion of water in that time.
   /// If these change the flow too much, ends the reuse and returns nothing.

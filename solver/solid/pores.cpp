@@ -5,6 +5,10 @@
 
 namespace suffuse {
 
+void PoreState::open(const std::vector<double>& gained, const std::vector<double>& volume) {
+  for (std::size_t e = 0; e < gained.size(); ++e) porosity[e] += gained[e] / volume[e];
+}
+
 template <int Dim>
 ElementField<Dim> initial_pore_volume(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
   // The initial porosity is a linear function, so its values at the field nodes are exact; points

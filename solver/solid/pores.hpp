@@ -18,6 +18,10 @@ struct PoreState {
   std::vector<double> concentration;  ///< c
   std::vector<double> air_volume;     ///< m3; empty where all soil is saturated
   std::vector<double> flux;           ///< |q|, m/s; empty if no soil transfers momentum
+
+  /// Adds the pores that moving solid opens. `gained`: per element, m3, empty if it does not move;
+  /// `volume`: of the elements, m3.
+  void open(const std::vector<double>& gained, const std::vector<double>& volume);
 };
 
 /// Pore volume per element and field node at the start, m3.

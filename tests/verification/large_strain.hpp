@@ -75,7 +75,8 @@ inline Deviation deviation_at_large_strain(const std::string& law, int rows, dou
               << row.number("base_pressure_over_load") << "\n";
   }
   EXPECT_LT(run.worst_residual(), 1e-12);
-  std::cout << run.steps() << " steps, " << run.model().coupled_flow().iterations() << "\n";
+  worst.steps = run.steps();
+  std::cout << worst.steps << " steps, " << run.model().coupled_flow().iterations() << "\n";
   return worst;
 }
 
