@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "grid/parallel.hpp"
 
@@ -41,28 +42,10 @@ std::vector<double> locking_volumes(const SolidBody<Dim>& body, const Supports<D
   return volume;
 }
 
-/// Beside a node that is held, one with a smaller share of the mass that it has inside the soil
-/// counts with that share: if the points of the element lie at the held node, the other would fall
-/// freely without them, and shorten the steps.
-constexpr double least_mass_share = 1e-3;
-
-/// Least mass of each node, kg; 0 where it has none, or no held node is beside it.
-template <int Dim>
-std::vector<double> least_masses(const Grid<Dim>& grid, const Supports<Dim>& supports,
-                                 const SolidPoints<Dim>& points, const std::vector<double>& mass) {
-  double sum = 0.0;
-  double volume = 0.0;
-  for (const double m : mass) sum += m;
-  for (const double v : points.volume) volume += v;
-  std::vector<double> result(mass.size(), 0.0);
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const auto& nodes = grid.mesh.elements[e];
-    if (std::ranges::none_of(nodes, [&](int i) { return supports.free_count(i) < Dim; })) continue;
-    const double share = least_mass_share * sum / volume * grid.volume[e] / (Dim + 1);
-    for (const int i : nodes) result[i] += mass[i] > 0.0 ? share : 0.0;
-  }
-  return result;
-}
+/// A node with a smaller share of the mass that it has inside the soil moves with its element,
+/// whose change of the velocity's gradient has inertia then. Otherwise pressures, which act on the
+/// whole element, would move it without bounds where a point lies at another node.
+constexpr double light_share = 1e-2;
 
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim> displacement_gradient(const Grid<Dim>& grid,
@@ -334,10 +317,22 @@ NodeVectors<Dim> Equilibrium<Dim>::forces() const {
 template <int Dim>
 void Equilibrium<Dim>::set_inertia(const std::vector<double>& mass,
                                    const NodeVectors<Dim>& velocity, double dt) {
-  inertia_ = least_masses(body_.grid, unknowns_.supports(), body_.points, mass);
+  const double density = std::reduce(mass.begin(), mass.end()) /
+                         std::reduce(body_.points.volume.begin(), body_.points.volume.end());
+  for (const int e : elements_) {
+    const double height = 1.0 / steepest_shape(body_.grid, e);
+    double lightest = light_share;
+    for (const int i : body_.grid.mesh.elements[e]) {
+      const double inside = density * body_.grid.node_volume[i];
+      lightest = std::min(lightest, mass[i] / inside);
+    }
+    soft_[e] +=
+        (light_share - lightest) * density * body_.grid.volume[e] * height * height / (dt * dt);
+  }
+  inertia_.resize(mass.size());
   coasting_.resize(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) {
-    inertia_[i] = std::max(inertia_[i], mass[i]) / (dt * dt);
+    inertia_[i] = mass[i] / (dt * dt);
     coasting_[i] = dt * velocity[i];
   }
 }
@@ -375,7 +370,9 @@ auto Equilibrium<Dim>::mean_moduli(int e) const -> Moduli {
 
 template <int Dim>
 auto Equilibrium<Dim>::soft_stress(int e) const -> Gradient {
-  return soft_[e] * moved_[e] + 0.5 * soft_strain_[e] * (moved_[e] + moved_[e].transpose());
+  Gradient held = moved_[e];
+  if (has_inertia()) held -= displacement_gradient(body_.grid, coasting_, e);
+  return soft_[e] * held + 0.5 * soft_strain_[e] * (moved_[e] + moved_[e].transpose());
 }
 
 template <int Dim>

@@ -65,7 +65,8 @@ Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& dis
 ///     R_u = sum_e [scale sum_p V_0 tau F^-T + S_e - p V_e J F^-T] grad N - loads
 ///           + M (du - dt v*)/dt^2 where inertia counts (backward Euler)
 ///
-/// tau is the Kirchhoff stress of a point by its law, S_e the stress of the soft stiffness, p the
+/// tau is the Kirchhoff stress of a point by its law, S_e the stress of the soft stiffness (with
+/// inertia, that of light nodes against the gradient of du - dt v*), p the
 /// pore pressure of the element and J = det F (docs/theory/moving-soil.md, "Equilibrium of the
 /// solid"). Where elements share their dilatation, laws see (Jm/J)^(1/d) F. Jm is the mean ratio of
 /// `SharedDilatation`; the forces do the same work as the laws. Contributions of elements are added
@@ -178,12 +179,13 @@ class Equilibrium {
   DisplacementUnknowns<Dim> unknowns_;
   std::vector<double> pressure_;
   std::vector<double> stiffness_;
-  std::vector<double> inertia_;      ///< M/dt^2 per node, N/m; empty: none
-  NodeVectors<Dim> coasting_;        ///< dt v* per node, m
-  NodeVectors<Dim> displacement_;    ///< the last displacement, m
-  bool has_tangents_ = false;        ///< whether tangents are those of `displacement_`
-  double least_force_ = 0.0;         ///< part of `force_scale`, N
-  std::vector<double> soft_;         ///< per element: stiffness against grad du, Pa m3 ...
+  std::vector<double> inertia_;    ///< M/dt^2 per node, N/m; empty: none
+  NodeVectors<Dim> coasting_;      ///< dt v* per node, m
+  NodeVectors<Dim> displacement_;  ///< the last displacement, m
+  bool has_tangents_ = false;      ///< whether tangents are those of `displacement_`
+  double least_force_ = 0.0;       ///< part of `force_scale`, N
+  /// Per element: stiffness against grad du, or that of du - dt v* with inertia, Pa m3 ...
+  std::vector<double> soft_;
   std::vector<double> soft_strain_;  ///< ... and against its symmetric part
   SharedDilatation<Dim> dilatation_;
   std::vector<Gradient> moved_;      ///< grad du per element

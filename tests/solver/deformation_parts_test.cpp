@@ -642,5 +642,57 @@ TEST(HeldByInertia, IsTheMobilityOfAFluidInShortSteps) {
   }
 }
 
+/// One point of next to no stiffness, nearly at a node of its element.
+struct LonePoint {
+  static constexpr double mass = 500.0;  // kg
+  static constexpr double dt = 1e-2;     // s
+  model::SolidModel<2> model{model::crossed_mesh(1, 1, 1.0, 1.0),
+                             {{{1.0 - 2e-9, 1e-9, 1e-9}, 1.0}},
+                             model::elastic_soil(1e-6, 0.0),
+                             [](const Vector<2>& x) { return x[1] < 0.3; }};
+  std::vector<int> nodes = std::vector<int>(model.mesh.elements[model.points.element[0]].begin(),
+                                            model.mesh.elements[model.points.element[0]].end());
+  std::vector<double> masses = std::vector<double>(model.mesh.node_count(), 0.0);
+
+  LonePoint() {
+    for (int a = 0; a < 3; ++a) masses[nodes[a]] = mass * (a == 0 ? 1.0 - 2e-9 : 1e-9);
+  }
+  /// Displacement in a step under loads, N, that starts at a velocity, m/s.
+  [[nodiscard]] NodeVectors<2> moved(const NodeVectors<2>& loads, const Vector<2>& velocity) const {
+    const Supports<2> supports(model.grid, model.face_support);
+    Equilibrium<2> equilibrium(model.body(), supports, 1);
+    equilibrium.set_inertia(masses, NodeVectors<2>(masses.size(), velocity), dt);
+    const auto solution =
+        EquilibriumSolver<2>(equilibrium).solve(loads, model.no_loads(), {.tolerance = 1e-14});
+    return solution.displacement;
+  }
+};
+
+TEST(Inertia, OfALightNodeIsThatOfItsElement) {
+  const LonePoint lone;
+  NodeVectors<2> loads = lone.model.no_loads();
+  loads[lone.nodes[1]] = {1.0, 0.0};
+  const NodeVectors<2> moved = lone.moved(loads, Vector<2>::Zero());
+  // A hundredth of the element's mass moves, not a billionth; momentum is that of the load.
+  const double of_element = LonePoint::dt * LonePoint::dt / LonePoint::mass;
+  EXPECT_LT(moved[lone.nodes[1]].norm(), 500.0 * of_element);
+  EXPECT_GT(moved[lone.nodes[1]].norm(), 50.0 * of_element);
+  Vector<2> momentum = Vector<2>::Zero();
+  for (const int i : lone.nodes) momentum += lone.masses[i] * moved[i] / LonePoint::dt;
+  EXPECT_NEAR(momentum[0], LonePoint::dt, 1e-8 * LonePoint::dt);
+  EXPECT_NEAR(momentum[1], 0.0, 1e-8 * LonePoint::dt);
+}
+
+TEST(Inertia, OfALightNodeDoesNotHoldAFreeFall) {
+  const LonePoint lone;
+  const Vector<2> g(0.0, -10.0);
+  const Vector<2> start(3.0, 1.0);
+  NodeVectors<2> loads = lone.model.no_loads();
+  for (const int i : lone.nodes) loads[i] = lone.masses[i] * g;
+  const NodeVectors<2> moved = lone.moved(loads, start);
+  const Vector<2> falls = LonePoint::dt * (start + LonePoint::dt * g);
+  for (const int i : lone.nodes) EXPECT_LT((moved[i] - falls).norm(), 1e-10 * falls.norm());
+}
+
 }  // namespace deformation_parts_test
 }  // namespace suffuse
