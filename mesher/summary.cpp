@@ -120,7 +120,8 @@ std::string angle_warning(const Mesh<Dim>& mesh) {
   const double angle = smallest_angle(mesh);
   if (angle >= poor_angle) return "";
   return "the smallest angle is " + number(angle, "degrees") +
-         "; below 5 degrees steps are short and results poor: change the geometry or mesh.size";
+         "; below 5 degrees steps are short and results poor: change the geometry or mesh.size" +
+         (Dim == 3 ? ", or take Gmsh's HXT (Mesh.Algorithm3D = 10 in the geometry file)" : "");
 }
 
 template std::string case_summary(const Case<2>&, const std::vector<std::string>&);

@@ -1209,8 +1209,13 @@ TEST(Summary, WarnsOfSharpAngles) {
   mesh.nodes = {{0, 0}, {1, 0}, {1, 0.08}};
   mesh.elements = {{0, 1, 2}};
   EXPECT_NE(angle_warning(mesh).find("the smallest angle is 4.57"), std::string::npos);
+  EXPECT_EQ(angle_warning(mesh).find("HXT"), std::string::npos);
   mesh.nodes[2][1] = 0.1;
   EXPECT_EQ(angle_warning(mesh), "");
+  Mesh<3> flat;
+  flat.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.01}};
+  flat.elements = {{0, 1, 2, 3}};
+  EXPECT_NE(angle_warning(flat).find("Mesh.Algorithm3D = 10"), std::string::npos);
 }
 
 }  // namespace geometry_test
