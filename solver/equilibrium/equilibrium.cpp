@@ -326,7 +326,7 @@ void Equilibrium<Dim>::set_inertia(const std::vector<double>& mass,
       const double inside = density * body_.grid.node_volume[i];
       lightest = std::min(lightest, mass[i] / inside);
     }
-    soft_[e] +=
+    soft_[e] =
         (light_share - lightest) * density * body_.grid.volume[e] * height * height / (dt * dt);
   }
   inertia_.resize(mass.size());
@@ -335,6 +335,7 @@ void Equilibrium<Dim>::set_inertia(const std::vector<double>& mass,
     inertia_[i] = mass[i] / (dt * dt);
     coasting_[i] = dt * velocity[i];
   }
+  forget_displacement();  // its soft stress has changed
 }
 
 template <int Dim>

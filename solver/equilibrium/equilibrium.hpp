@@ -66,11 +66,11 @@ Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& dis
 ///           + M (du - dt v*)/dt^2 where inertia counts (backward Euler)
 ///
 /// tau is the Kirchhoff stress of a point by its law, S_e the stress of the soft stiffness (with
-/// inertia, that of light nodes against the gradient of du - dt v*), p the
-/// pore pressure of the element and J = det F (docs/theory/moving-soil.md, "Equilibrium of the
-/// solid"). Where elements share their dilatation, laws see (Jm/J)^(1/d) F. Jm is the mean ratio of
-/// `SharedDilatation`; the forces do the same work as the laws. Contributions of elements are added
-/// in the order of the elements: the same bits on any number of threads.
+/// inertia, that of light nodes against the gradient of du - dt v*), p the pore pressure of the
+/// element and J = det F (docs/theory/moving-soil.md, "Equilibrium of the solid"). Where elements
+/// share their dilatation, laws see (Jm/J)^(1/d) F. Jm is the mean ratio of `SharedDilatation`; the
+/// forces do the same work as the laws. Contributions of elements are added in the order of the
+/// elements: the same bits on any number of threads.
 template <int Dim>
 class Equilibrium {
  public:
@@ -88,6 +88,7 @@ class Equilibrium {
   }
 
   /// Inertia over a step of `dt`, s: the mass of each node, kg, and its velocity at the start, m/s.
+  /// That of light nodes replaces the soft stiffness against the gradient.
   void set_inertia(const std::vector<double>& mass, const NodeVectors<Dim>& velocity, double dt);
 
   /// Whether a displacement leaves each element with soil more than `min_ratio` of its volume.

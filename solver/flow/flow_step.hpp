@@ -36,7 +36,7 @@ struct FlowStep {
   MixedStep<Dim> found = {};
   std::vector<double> reservoir_rates = {};  ///< at which levels rise in the step, m/s
   bool is_kept = false;                      ///< the flow is steady and was not solved again
-  /// Expected at the end of the step, from erosion alone; none if the flow does not follow pores.
+  /// Pores at the end of the step, from erosion alone; none if the flow does not follow pores.
   std::optional<PoreState> expected = {};
   // If a solid moves in the step: see FlowProgress.
   std::vector<double> room_gained = {};

@@ -661,7 +661,10 @@ struct LonePoint {
   [[nodiscard]] NodeVectors<2> moved(const NodeVectors<2>& loads, const Vector<2>& velocity) const {
     const Supports<2> supports(model.grid, model.face_support);
     Equilibrium<2> equilibrium(model.body(), supports, 1);
-    equilibrium.set_inertia(masses, NodeVectors<2>(masses.size(), velocity), dt);
+    // A step that is tried again with another length starts anew.
+    for (const double length : {0.1 * dt, dt}) {
+      equilibrium.set_inertia(masses, NodeVectors<2>(masses.size(), velocity), length);
+    }
     const auto solution =
         EquilibriumSolver<2>(equilibrium).solve(loads, model.no_loads(), {.tolerance = 1e-14});
     return solution.displacement;

@@ -24,8 +24,8 @@ model::CollapseResult collapse(const model::Collapse& c) {
 // Lube and others (2005): 1.2 a below 1.8, 1.9 a^(2/3) above 2.8.
 
 /// The front of 98 % of the sand gets thinner and reaches farther with each refinement, in other
-/// codes too. Where the sand is a tenth of the column's height deep, run-out converges; it scatters
-/// by 1 % as tolerances change.
+/// codes too. Where the sand is a tenth of the column's height deep, run-out converges. With
+/// another tolerance of Newton's method it differs by up to 1 %.
 TEST(CollapseLong, OfALowColumnIsThatOfSandOnFinerMeshes) {
   for (const double aspect : {0.5, 1.0}) {
     double coarse = 0.0;
