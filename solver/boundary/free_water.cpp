@@ -32,6 +32,18 @@ void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
   }
 }
 
+template <int Dim>
+void add_free_water_mass(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step,
+                         const std::vector<double>& liquid_mass, std::vector<double>& mass) {
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (step.sorted().is_empty(e)) continue;
+    // Points may crowd in an element: it holds no other water then.
+    const double rest = std::max(0.0, grid.volume[e] - step.equilibrium().soil_volume(e));
+    const double of_node = liquid_mass[e] * rest / (Dim + 1);
+    for (const int i : grid.mesh.elements[e]) mass[i] += of_node;
+  }
+}
+
 template bool has_free_water(const Grid<2>&, const SoilMap<2>&);
 template bool has_free_water(const Grid<3>&, const SoilMap<3>&);
 template void add_free_water(const Grid<2>&, const PointsByElement&, const std::vector<double>&,
@@ -40,5 +52,9 @@ template void add_free_water(const Grid<2>&, const PointsByElement&, const std::
 template void add_free_water(const Grid<3>&, const PointsByElement&, const std::vector<double>&,
                              const std::vector<double>&, const std::vector<double>&,
                              const std::array<double, 3>&, NodeVectors<3>&);
+template void add_free_water_mass(const Grid<2>&, const StepEquilibrium<2>&,
+                                  const std::vector<double>&, std::vector<double>&);
+template void add_free_water_mass(const Grid<3>&, const StepEquilibrium<3>&,
+                                  const std::vector<double>&, std::vector<double>&);
 
 }  // namespace suffuse

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "equilibrium/solid_points.hpp"
+#include "equilibrium/step_equilibrium.hpp"
 #include "equilibrium/supports.hpp"
 #include "solid/soil_map.hpp"
 
@@ -25,5 +26,11 @@ void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
                     const std::vector<double>& soil_volume, const std::vector<double>& pressure,
                     const std::vector<double>& liquid_mass, const std::array<double, 3>& gravity,
                     NodeVectors<Dim>& loads);
+
+/// Adds the water that fills the rest of elements partly filled with soil, and moves with it, to
+/// the masses of nodes, kg. \param liquid_mass  see `add_free_water`
+template <int Dim>
+void add_free_water_mass(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step,
+                         const std::vector<double>& liquid_mass, std::vector<double>& mass);
 
 }  // namespace suffuse

@@ -14,6 +14,7 @@
 #include "flow/implicit_settings.hpp"
 #include "formulation/point_checks.hpp"
 #include "formulation/single_point.hpp"
+#include "linear/lagged_preconditioner.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
 #include "physics/liquid.hpp"
@@ -469,7 +470,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   if constexpr (Dim == 3) {
     plan.sentences.push_back(
         std::string("run: linear systems of the flow, ") +
-        (uses_multigrid(Dim, grid.face_count()) ? "multigrid, " : "a direct factor, ") +
+        (prefers_multigrid(Dim, grid.face_count()) ? "multigrid, " : "a direct factor, ") +
         std::to_string(grid.face_count()) + " faces");
   }
   return plan;

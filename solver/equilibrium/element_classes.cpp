@@ -67,6 +67,14 @@ std::vector<double> soil_volumes(const SolidPoints<Dim>& points, const PointsByE
   return result;
 }
 
+template <int Dim>
+std::vector<double> sums_in_elements(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                                     const std::vector<double>& values, double factor) {
+  std::vector<double> result(grid.mesh.element_count(), 0.0);
+  for (int p = 0; p < points.size(); ++p) result[points.element[p]] += factor * values[p];
+  return result;
+}
+
 template std::vector<double> soil_volumes(const SolidPoints<2>&, const PointsByElement&,
                                           const ElementClasses&);
 template std::vector<double> soil_volumes(const SolidPoints<3>&, const PointsByElement&,
@@ -75,5 +83,10 @@ template ElementClasses::ElementClasses(const Grid<2>&, const SolidPoints<2>&,
                                         const PointsByElement&);
 template ElementClasses::ElementClasses(const Grid<3>&, const SolidPoints<3>&,
                                         const PointsByElement&);
+
+template std::vector<double> sums_in_elements(const Grid<2>&, const SolidPoints<2>&,
+                                              const std::vector<double>&, double);
+template std::vector<double> sums_in_elements(const Grid<3>&, const SolidPoints<3>&,
+                                              const std::vector<double>&, double);
 
 }  // namespace suffuse

@@ -31,4 +31,9 @@ template <int Dim>
 std::vector<double> soil_volumes(const SolidPoints<Dim>& points, const PointsByElement& sorted,
                                  const ElementClasses& classes);
 
+/// Sum of the points' values in each element, times a factor.
+template <int Dim>
+std::vector<double> sums_in_elements(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
+                                     const std::vector<double>& values, double factor);
+
 }  // namespace suffuse

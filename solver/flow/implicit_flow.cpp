@@ -177,11 +177,10 @@ FlowStep<Dim> ImplicitFlow<Dim>::solve(const FlowInterval<Dim>& interval) {
 template <int Dim>
 FlowStep<Dim> ImplicitFlow<Dim>::propose(const FlowInterval<Dim>& interval) {
   follow_soils();
-  const double until = this->next_breakpoint(interval.start, interval.latest);
   FlowStep<Dim> step;
   step.start = interval.start;
-  step.dt = control_.propose(interval.start, until, interval.longest);
-  step.until = until;
+  step.until = this->next_breakpoint(interval.start, interval.latest);
+  step.dt = control_.propose(interval.start, step.until, interval.longest);
   step.reservoir_rates = this->boundary_values().reservoir_rates();
   return step;
 }
@@ -221,7 +220,8 @@ bool ImplicitFlow<Dim>::accepts(const FlowInterval<Dim>& interval, FlowStep<Dim>
   const double error = given ? 0.0 : error_of(step.found, step.start, step.dt);
   if (!control_.accept(step.start, error, previous_.has_value(), step.dt)) return false;
   if (scheme_.iterations() > implicit_thresholds.slow_iterations) control_.hold(step.dt);
-  if (solid_.has_inertia()) control_.hold(implicit_thresholds.inertial_growth * step.dt);
+  const double growth = control_.has_shortened() ? 1.0 : implicit_thresholds.inertial_growth;
+  if (solid_.has_inertia()) control_.hold(growth * step.dt);
   if (follows_pores_) {
     step.expected = interval.pores.at(just_before(step.start, step.start + step.dt));
   }

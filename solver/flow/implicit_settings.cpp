@@ -60,8 +60,4 @@ BlendingSettings blending_settings(const Scene& scene, const FlowOptions& option
   return {!options.step_given, follows_pores, lightest, heaviest};
 }
 
-bool uses_multigrid(int dimension, int faces) {
-  return prefers_multigrid(dimension, faces);
-}
-
 }  // namespace suffuse

@@ -31,7 +31,4 @@ StepSettings step_settings(const Scene& scene, const FlowOptions& options, bool 
 BlendingSettings blending_settings(const Scene& scene, const FlowOptions& options,
                                    bool follows_pores);
 
-/// Whether linear systems of the flow are solved by multigrid on a mesh with this number of faces.
-bool uses_multigrid(int dimension, int faces);
-
 }  // namespace suffuse

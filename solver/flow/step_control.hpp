@@ -74,8 +74,9 @@ class StepControl {
   /// NumericalError when the step would become too short to change the time, except after a kink,
   /// where some such steps are accepted.
   [[nodiscard]] bool accept(double start, double error, bool predicted, double& dt);
-  /// Shortens the step of `dt` from `start`, which has no result. Throws as `accept` does.
-  void reject(double start, double& dt);
+  /// Shortens the step of `dt` from `start`, which has no result: by less for soil with inertia,
+  /// which already steps a little shorter can follow. Throws as `accept` does.
+  void reject(double start, bool has_inertia, double& dt);
   /// Bounds the length of the next step by this one.
   void hold(double dt) { next_ = std::min(next_, dt); }
   /// Call at the end of a step of `dt` seconds.
@@ -102,6 +103,8 @@ class StepControl {
   [[nodiscard]] double last_step() const { return last_; }  ///< s; zero before the first
   [[nodiscard]] double next_step() const { return next_; }  ///< length to be tried, s
   [[nodiscard]] long rejected() const { return rejected_; }
+  /// Whether a longer step was tried before the present one.
+  [[nodiscard]] bool has_shortened() const { return shortened_; }
 
   void archive(auto& archive) {
     archive(last_, next_, smooth_, rejected_, shortest_change_, settles_, unresolved_);

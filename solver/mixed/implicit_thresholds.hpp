@@ -17,12 +17,13 @@ struct ImplicitThresholds {
   double max_retry = 0.9;
   /// The step that replaces one whose iteration did not converge, in lengths of that one.
   double unsolved_shrinkage = 0.25;
+  double unsolved_inertial_shrinkage = 0.5;  ///< as above for soil with inertia
   /// A step below this share of the run whose iteration does not converge ends the run.
   double min_unsolved_step = 1e-9;
   /// As `min_unsolved_step` for soil with inertia, with which a shorter step is easier to solve.
   double min_unsolved_inertial_step = 1e-12;
-  /// The longest step that may follow a step of soil with inertia, in lengths of that step.
-  double inertial_growth = 1.5;
+  /// The longest step that may follow one of soil with inertia that was not shortened, in lengths.
+  double inertial_growth = 1.2;
   /// Steps do not grow after one whose iteration took more solutions than this.
   int slow_iterations = 25;
   /// The next step's length, in lengths of the step whose error is expected to equal the tolerance.

@@ -53,6 +53,10 @@ bool is_too_far(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
   return largest_travel(grid, points, gained) > max_gain;
 }
 
+/// Pressures of confined water magnify the residual.
+constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
+constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-5, .goal = 1e-6};
+
 /// Time in which soil falls through an element of mean size, s; 0 without gravity.
 template <int Dim>
 double fall_through_element(const Mesh<Dim>& mesh, const Scene& scene) {
@@ -262,9 +266,6 @@ MotionStep<Dim> MovingSkeleton<Dim>::start_step(MotionForcing forcing,
 
 template <int Dim>
 void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
-  // Pressures of confined water magnify the residual.
-  constexpr NewtonLimits in_equilibrium{.goal = 1e-12};
-  constexpr NewtonLimits in_motion{.max_iterations = 12, .tolerance = 1e-5, .goal = 1e-6};
   const double duration = step.forcing.duration;
   step.has_inertia = inertia_.acts();
   step.equilibrium = std::make_unique<StepEquilibrium<Dim>>(
@@ -276,13 +277,14 @@ void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
     return;
   }
   step.mass = moved_masses(step);
-  std::vector<double> of_element(this->grid_.mesh.element_count(), 0.0);
-  for (int p = 0; p < points_.size(); ++p) {
-    of_element[points_.element[p]] += step.mass[p] / (duration * duration);
-  }
-  step.bubbles = std::make_unique<FaceBubbles<Dim>>(this->grid_, *step.equilibrium, of_element);
+  step.bubbles = std::make_unique<FaceBubbles<Dim>>(
+      this->grid_, *step.equilibrium,
+      sums_in_elements(this->grid_, points_, step.mass, 1.0 / (duration * duration)));
   step.nodes = inertia_.nodes(this->grid_, points_, step.mass);
-  step.equilibrium->set_inertia(step.nodes, duration);
+  NodalMotion<Dim> nodes = step.nodes;
+  if (has_free_water_)
+    add_free_water_mass(this->grid_, *step.equilibrium, step.forcing.liquid_mass, nodes.mass);
+  step.equilibrium->set_inertia(nodes, duration);
 }
 
 template <int Dim>

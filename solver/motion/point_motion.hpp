@@ -9,7 +9,8 @@ namespace suffuse {
 /// Moves the points, finds their new elements, and updates volume, elastic deformation and plastic
 /// strain. The body's order of points and its classes are outdated then: make them again.
 /// \param displacement  of the nodes over the step, m
-/// \param increments    that laws see (`Equilibrium::law_increments`); volumes follow them too
+/// \param increments    that laws see (`Equilibrium::law_increments`); volumes follow them too,
+///                      up to four times those at the start
 /// Throws NumericalError, with point and place, if a point would leave the mesh; the points do not
 /// change then.
 template <int Dim>

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <random>
 
+#include "boundary/free_water.hpp"
 #include "box_mesh.hpp"
 #include "grid/near_element.hpp"
 #include "motion/crossing_forces.hpp"
@@ -447,6 +448,21 @@ TEST(PointMotion, SoilMayRiseALittleOverTheBorder) {
   }
 }
 
+TEST(PointMotion, LooseSoilFillsNoMoreThanFourTimesItsVolume) {
+  PlaneModel m(model::column_mesh(2, 2), 1, model::elastic_soil(1e6, 0.3));
+  const std::vector<double> start = m.points.volume;
+  const Increments<2> grows(m.mesh.element_count(), std::sqrt(1.5) * Eigen::Matrix2d::Identity());
+  const Increments<2> shrinks(m.mesh.element_count(), std::sqrt(0.5) * Eigen::Matrix2d::Identity());
+  const auto volume_after = [&](const Increments<2>& increments) {
+    move_points(m.grid, m.skeleton, m.no_loads(), increments, m.points, 1);
+    return m.points.volume[0] / start[0];
+  };
+  EXPECT_NEAR(volume_after(grows), 1.5, 1e-15);
+  for (int step = 0; step < 5; ++step) volume_after(grows);
+  EXPECT_EQ(m.points.volume[0], 4.0 * start[0]);
+  EXPECT_NEAR(volume_after(shrinks), 2.0, 1e-15);
+}
+
 TEST(PointMotion, FindsElementsAcrossAMeshAndAroundCorners) {
   // The mesh lacks its upper right quarter: the straight way from there to the upper left is
   // outside.
@@ -695,6 +711,25 @@ TEST(Inertia, OfALightNodeDoesNotHoldAFreeFall) {
   const NodeVectors<2> moved = lone.moved(loads, start);
   const Vector<2> falls = LonePoint::dt * (start + LonePoint::dt * g);
   for (const int i : lone.nodes) EXPECT_LT((moved[i] - falls).norm(), 1e-10 * falls.norm());
+}
+
+TEST(Inertia, OfWaterThatFillsTheRestOfAnElementActsAtItsNodesAlone) {
+  constexpr double density = 1000.0;  // kg/m3
+  LonePoint lone;
+  model::SolidModel<2>& model = lone.model;
+  model.points.volume[0] *= 0.25;
+  const Supports<2> supports(model.grid, model.face_support);
+  const StepEquilibrium<2> step(model.grid, model.points, model.skeleton, supports, 1);
+  const int e = model.points.element[0];
+  std::vector<double> mass = lone.masses;
+  add_free_water_mass(model.grid, step, std::vector<double>(model.mesh.elements.size(), density),
+                      mass);
+  const double rest = density * (model.grid.volume[e] - model.points.volume[0]);
+  EXPECT_GT(rest, 0.0);
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    const bool is_near = std::ranges::find(lone.nodes, static_cast<int>(i)) != lone.nodes.end();
+    EXPECT_NEAR(mass[i] - lone.masses[i], is_near ? rest / 3.0 : 0.0, 1e-12 * rest);
+  }
 }
 
 }  // namespace deformation_parts_test

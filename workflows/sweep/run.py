@@ -72,7 +72,7 @@ def steps():
         write(started, text)
     if safety[:1] == ["case"]:
         return
-    yield "suffuse-solver", "failed", case, "-o", results, *["--quiet"] * (not alone), "--resume"
+    yield "suffuse-solver", "failed", case, "-o", results, *["--quiet"] * (not alone), *["--resume"] * results.exists()
     yield "suffuse-post", "unbalanced", "ledger", results, "--csv", ledger, "--tolerance", tolerance
 
 

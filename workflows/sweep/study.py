@@ -38,9 +38,9 @@ def study():
         file = pathlib.Path(f"{stem}.{suffix}")
         if not file.is_file() or file.stat().st_mtime_ns <= made:
             command = [f"{stem}.results" if word == "RESULTS" else word for word in command]
-            print("suffuse-post", *command, flush=True)
+            print("suffuse-post", *command, file, flush=True)
             call(post, *command, file)
-    print(f"The study's figures, tables and results are {stem}.*")
+    print(f"The report is {stem}.html; the study's figures, tables and results are {stem}.*")
 
 
 def adapt():
