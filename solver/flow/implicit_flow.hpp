@@ -59,7 +59,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   /// where its elements could not hold it. Returns whether the step is to be solved again.
   [[nodiscard]] bool let_out_expansion(FlowStep<Dim>& step) const;
   /// Shortens a step that has no solution. Throws as `solve` does.
-  void reject(FlowStep<Dim>& step) { control_.reject(step.start, solid_.has_inertia(), step.dt); }
+  void reject(FlowStep<Dim>& step) { control_.reject(step.start, step.dt); }
   /// Plans the step again after the solid got inertia, at least as long as the last one.
   void plan_anew(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const;
   /// Whether a step without a solution is too short to be shortened.

@@ -149,12 +149,11 @@ double StepControl::max_unresolved() const {
   return implicit_thresholds.max_unresolved / std::sqrt(settings_.tolerance);
 }
 
-void StepControl::reject(double start, bool has_inertia, double& dt) {
+void StepControl::reject(double start, double& dt) {
   ++rejected_;
   shortened_ = true;
   rejected_dt_ = 0.0;
-  dt *= has_inertia ? implicit_thresholds.unsolved_inertial_shrinkage
-                    : implicit_thresholds.unsolved_shrinkage;
+  dt *= implicit_thresholds.unsolved_shrinkage;
   next_ = dt;
   refuse_too_short(start, dt);
 }

@@ -74,9 +74,8 @@ class StepControl {
   /// NumericalError when the step would become too short to change the time, except after a kink,
   /// where some such steps are accepted.
   [[nodiscard]] bool accept(double start, double error, bool predicted, double& dt);
-  /// Shortens the step of `dt` from `start`, which has no result: by less for soil with inertia,
-  /// which already steps a little shorter can follow. Throws as `accept` does.
-  void reject(double start, bool has_inertia, double& dt);
+  /// Shortens the step of `dt` from `start`, which has no result. Throws as `accept` does.
+  void reject(double start, double& dt);
   /// Bounds the length of the next step by this one.
   void hold(double dt) { next_ = std::min(next_, dt); }
   /// Call at the end of a step of `dt` seconds.

@@ -17,7 +17,6 @@ struct ImplicitThresholds {
   double max_retry = 0.9;
   /// The step that replaces one whose iteration did not converge, in lengths of that one.
   double unsolved_shrinkage = 0.25;
-  double unsolved_inertial_shrinkage = 0.5;  ///< as above for soil with inertia
   /// A step below this share of the run whose iteration does not converge ends the run.
   double min_unsolved_step = 1e-9;
   /// As `min_unsolved_step` for soil with inertia, with which a shorter step is easier to solve.
