@@ -28,7 +28,8 @@ void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
                     NodeVectors<Dim>& loads);
 
 /// Adds the water that fills the rest of elements partly filled with soil, and moves with it, to
-/// the masses of nodes, kg. \param liquid_mass  see `add_free_water`
+/// the masses of nodes, kg.
+/// \param liquid_mass  see `add_free_water`
 template <int Dim>
 void add_free_water_mass(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step,
                          const std::vector<double>& liquid_mass, std::vector<double>& mass);

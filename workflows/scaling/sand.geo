@@ -1,4 +1,4 @@
-// A column of sand of 1 m by 1 m, and room to run out, in squares of 1/squares of its width; each is cut along its diagonals.
+// A column of sand of 1 m by 1 m, and room to run out. The column is `squares` squares wide; each is cut along its diagonals.
 squares = 16;
 n = squares / 2;  // Gmsh cuts each quadrangle of this drawing in four
 Point(1) = {0, 0, 0};    Point(2) = {1, 0, 0};    Point(3) = {3, 0, 0};

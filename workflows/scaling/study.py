@@ -119,6 +119,7 @@ def report(*files):
 
 # --- Soil that moves ---------------------------------------------------------------------------------------
 
+TESTS = here.parent.parent / "tests" / "cases"
 EXAMPLES = here.parent / "examples"
 SQUARES = (8, 16)
 SLOPES = (1.0, 0.5)
@@ -127,15 +128,16 @@ SLOPES = (1.0, 0.5)
 def motion(programs, out):
     programs, case, results = pathlib.Path(programs), f"{out}/motion.case.h5", f"{out}/motion.results"
     mesh = lambda scene, changes: call(programs / "suffuse-mesher", scene, *set_options(changes), "-o", case)
-    shutil.copy(here / "sand.toml", out)
-    runs = [(f"dry sand runs out, {squares} crossed squares over its width, to its rest", f"{out}/sand.toml", squares) for squares in SQUARES]
-    runs.append(("a levee loses fines, fails, slides and rests", EXAMPLES / "slide" / "slide.toml", None))
+    runs = []
+    for squares in SQUARES:
+        drawing = pathlib.Path(out, f"sand-{squares}.geo").resolve()
+        text = re.sub("squares = .*;", f"squares = {squares};", (here / "sand.geo").read_text(encoding="utf-8"), count=1)
+        drawing.write_text(text, encoding="utf-8")
+        runs.append((f"dry sand runs out, {squares} crossed squares over its width, to its rest", TESTS / "sand-column.toml", [f'geometry.file="{drawing}"']))
+    runs.append(("a levee loses fines, fails, slides and rests", EXAMPLES / "slide" / "slide.toml", []))
     lines = []
-    for name, scene, squares in runs:
-        if squares:
-            drawing = re.sub("squares = .*;", f"squares = {squares};", (here / "sand.geo").read_text(encoding="utf-8"), count=1)
-            pathlib.Path(out, "sand.geo").write_text(drawing, encoding="utf-8")
-        mesh(scene, [])
+    for name, scene, changes in runs:
+        mesh(scene, changes)
         call(programs / "suffuse-solver", case, "-o", results, "--force", "--threads", 1, "--quiet")
         run = run_json(results)
         points, seconds = int(run["solid_points"]), float(run["wall_seconds"])
