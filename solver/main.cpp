@@ -183,6 +183,13 @@ void add_strength_reduction(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1e-6, 1e6))
       ->type_name("DEPTH")
       ->needs(mode);
+  app.add_flag_callback(
+         "--quadratic",
+         [&arguments] { arguments.strength.displacements = suffuse::Displacements::quadratic; },
+         "Find it with quadratic displacements: nearer to the limit on coarse meshes, some ten "
+         "times "
+         "slower on the same mesh")
+      ->needs(mode);
   app.add_option("--mechanism", arguments.strength.mechanism,
                  "Write how the soil fails, on the mesh, as a file for ParaView")
       ->check(refuse_empty)

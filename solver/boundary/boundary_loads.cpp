@@ -76,7 +76,7 @@ BoundaryLoads<Dim>::BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soi
 
 template <int Dim>
 void BoundaryLoads<Dim>::add(const PointsByElement& sorted, const std::vector<double>& soil_volume,
-                             double time, NodeVectors<Dim>& loads) const {
+                             double time, NodalLoads<Dim>& loads) const {
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     const BoundaryCondition& boundary = scene_.boundaries[boundary_[k]];
     if (boundary.traction) {
@@ -95,7 +95,7 @@ void BoundaryLoads<Dim>::add(const PointsByElement& sorted, const std::vector<do
 template <int Dim>
 void BoundaryLoads<Dim>::add_traction(std::size_t surface, const PointsByElement& sorted,
                                       const std::vector<double>& soil_volume,
-                                      const Vector<Dim>& traction, NodeVectors<Dim>& loads) const {
+                                      const Vector<Dim>& traction, NodalLoads<Dim>& loads) const {
   double share = stress_[surface].share(grid_, surfaces_[surface].places());
   if (share > 0.0 && !stress_[surface].add(grid_, sorted, soil_volume, share * traction, loads)) {
     share = 0.0;

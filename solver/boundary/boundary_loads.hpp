@@ -25,10 +25,10 @@ class BoundaryLoads {
   /// \param sorted  the points by element
   BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const PointsByElement& sorted);
 
-  /// Adds the forces on the nodes at a time, s, to `loads`, N.
+  /// Adds the forces at a time, s, to `loads`, N.
   /// \param soil_volume  see `soil_volumes`
   void add(const PointsByElement& sorted, const std::vector<double>& soil_volume, double time,
-           NodeVectors<Dim>& loads) const;
+           NodalLoads<Dim>& loads) const;
   /// Times at which a traction has a kink, s. The kinks of heads are breakpoints of the flow.
   [[nodiscard]] std::vector<double> breakpoints() const;
   /// Largest difference of a traction from that at the start, Pa.
@@ -47,7 +47,7 @@ class BoundaryLoads {
  private:
   void add_traction(std::size_t surface, const PointsByElement& sorted,
                     const std::vector<double>& soil_volume, const Vector<Dim>& traction,
-                    NodeVectors<Dim>& loads) const;
+                    NodalLoads<Dim>& loads) const;
 
   const Grid<Dim>& grid_;
   const Scene& scene_;

@@ -17,28 +17,31 @@ template <int Dim>
 void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
                     const std::vector<double>& soil_volume, const std::vector<double>& pressure,
                     const std::vector<double>& liquid_mass, const std::array<double, 3>& gravity,
-                    NodeVectors<Dim>& loads) {
+                    NodalLoads<Dim>& loads) {
   const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(gravity.data());
   const std::vector<char> of_soil = nodes_of_soil(grid, sorted);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const double volume = grid.volume[e] - soil_volume[e];
     const Vector<Dim> weight = liquid_mass[e] * volume / (Dim + 1) * g;
-    for (int a = 0; a <= Dim; ++a) {
-      const int i = grid.mesh.elements[e][a];
-      if (of_soil[i] == 0) continue;
-      loads[i] += weight;
-      if (sorted.is_empty(e)) loads[i] += pressure[e] * grid.volume[e] * grid.shape_gradient[e][a];
-    }
+    const auto& nodes = grid.mesh.elements[e];
+    loads.add(
+        nodes, [&](std::size_t) { return weight; }, EdgeShare<Dim>::volume, of_soil);
+    if (!sorted.is_empty(e)) continue;
+    const auto of_pressure = [&](std::size_t a) {
+      return Vector<Dim>(pressure[e] * grid.volume[e] * grid.shape_gradient[e][a]);
+    };
+    loads.add(nodes, of_pressure, EdgeShare<Dim>::stress, of_soil);
   }
 }
 
 template <int Dim>
-void add_free_water_mass(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step,
+void add_free_water_mass(const Grid<Dim>& grid, const PointsByElement& sorted,
+                         const std::vector<double>& soil_volume,
                          const std::vector<double>& liquid_mass, std::vector<double>& mass) {
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    if (step.sorted().is_empty(e)) continue;
+    if (sorted.is_empty(e)) continue;
     // Points may crowd in an element: it holds no other water then.
-    const double rest = std::max(0.0, grid.volume[e] - step.equilibrium().soil_volume(e));
+    const double rest = std::max(0.0, grid.volume[e] - soil_volume[e]);
     const double of_node = liquid_mass[e] * rest / (Dim + 1);
     for (const int i : grid.mesh.elements[e]) mass[i] += of_node;
   }
@@ -48,13 +51,15 @@ template bool has_free_water(const Grid<2>&, const SoilMap<2>&);
 template bool has_free_water(const Grid<3>&, const SoilMap<3>&);
 template void add_free_water(const Grid<2>&, const PointsByElement&, const std::vector<double>&,
                              const std::vector<double>&, const std::vector<double>&,
-                             const std::array<double, 3>&, NodeVectors<2>&);
+                             const std::array<double, 3>&, NodalLoads<2>&);
 template void add_free_water(const Grid<3>&, const PointsByElement&, const std::vector<double>&,
                              const std::vector<double>&, const std::vector<double>&,
-                             const std::array<double, 3>&, NodeVectors<3>&);
-template void add_free_water_mass(const Grid<2>&, const StepEquilibrium<2>&,
-                                  const std::vector<double>&, std::vector<double>&);
-template void add_free_water_mass(const Grid<3>&, const StepEquilibrium<3>&,
-                                  const std::vector<double>&, std::vector<double>&);
+                             const std::array<double, 3>&, NodalLoads<3>&);
+template void add_free_water_mass(const Grid<2>&, const PointsByElement&,
+                                  const std::vector<double>&, const std::vector<double>&,
+                                  std::vector<double>&);
+template void add_free_water_mass(const Grid<3>&, const PointsByElement&,
+                                  const std::vector<double>&, const std::vector<double>&,
+                                  std::vector<double>&);
 
 }  // namespace suffuse

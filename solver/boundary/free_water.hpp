@@ -5,9 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "equilibrium/solid_points.hpp"
-#include "equilibrium/step_equilibrium.hpp"
-#include "equilibrium/supports.hpp"
+#include "boundary/nodal_loads.hpp"
 #include "solid/soil_map.hpp"
 
 namespace suffuse {
@@ -16,7 +14,7 @@ namespace suffuse {
 template <int Dim>
 bool has_free_water(const Grid<Dim>& grid, const SoilMap<Dim>& soils);
 
-/// Adds the forces of free water in elements without soil on the nodes of the soil, N: p V_e grad N
+/// Adds the forces of free water in elements without soil on the soil, N: p V_e grad N
 /// + rho V_e g/(Dim + 1), in their place at the start of the step. In elements partly filled with
 /// soil, water fills the rest.
 /// \param soil_volume  per element, m3; `pressure` per element, Pa
@@ -25,13 +23,14 @@ template <int Dim>
 void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
                     const std::vector<double>& soil_volume, const std::vector<double>& pressure,
                     const std::vector<double>& liquid_mass, const std::array<double, 3>& gravity,
-                    NodeVectors<Dim>& loads);
+                    NodalLoads<Dim>& loads);
 
 /// Adds the water that fills the rest of elements partly filled with soil, and moves with it, to
 /// the masses of nodes, kg.
-/// \param liquid_mass  see `add_free_water`
+/// \param soil_volume, liquid_mass  see `add_free_water`
 template <int Dim>
-void add_free_water_mass(const Grid<Dim>& grid, const StepEquilibrium<Dim>& step,
+void add_free_water_mass(const Grid<Dim>& grid, const PointsByElement& sorted,
+                         const std::vector<double>& soil_volume,
                          const std::vector<double>& liquid_mass, std::vector<double>& mass);
 
 }  // namespace suffuse

@@ -26,38 +26,35 @@ std::array<std::array<double, Dim>, Dim> places_on_face() {
   return result;
 }
 
-/// Adds a force at a place. Outside its element the shape functions are extrapolated.
-template <int Dim>
-void add_force_at(const Grid<Dim>& grid, const PointPlace<Dim>& place, const Vector<Dim>& force,
-                  NodeVectors<Dim>& loads) {
-  for (int a = 0; a <= Dim; ++a) {
-    loads[grid.mesh.elements[place.element][a]] += place.barycentric[a] * force;
-  }
-}
-
 }  // namespace
 
 template <int Dim>
 void add_point_forces(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                      const std::vector<Vector<Dim>>& force, NodeVectors<Dim>& loads) {
+                      const std::vector<Vector<Dim>>& force, NodalLoads<Dim>& loads) {
+  const std::vector<char> all(grid.mesh.node_count(), 1);
   for (int p = 0; p < points.size(); ++p) {
     const int e = points.element[p];
-    add_force_at<Dim>(grid, {e, barycentric(grid.mesh, e, points.position[p])}, force[p], loads);
+    const auto share = barycentric(grid.mesh, e, points.position[p]);
+    loads.add(
+        grid.mesh.elements[e], [&](std::size_t a) { return Vector<Dim>(share[a] * force[p]); },
+        EdgeShare<Dim>::volume, all);
   }
 }
 
 template <int Dim>
 void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                 const std::vector<double>& soil_volume, const SoilMass& mass,
-                const std::array<double, 3>& gravity, NodeVectors<Dim>& loads) {
+                const std::array<double, 3>& gravity, NodalLoads<Dim>& loads) {
   const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(gravity.data());
   std::vector<Vector<Dim>> weight(points.size());
   for (int p = 0; p < points.size(); ++p) weight[p] = mass.solid[p] * g;
   add_point_forces(grid, points, weight, loads);
   if (mass.liquid.empty()) return;
+  const std::vector<char> all(grid.mesh.node_count(), 1);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const Vector<Dim> of_node = mass.liquid[e] * soil_volume[e] / (Dim + 1) * g;
-    for (const int i : grid.mesh.elements[e]) loads[i] += of_node;
+    loads.add(
+        grid.mesh.elements[e], [&](std::size_t) { return of_node; }, EdgeShare<Dim>::volume, all);
   }
 }
 
@@ -130,13 +127,13 @@ PointPlace<Dim> LoadedSurface<Dim>::carrier(const Grid<Dim>& grid, const PointsB
 
 template <int Dim>
 void LoadedSurface<Dim>::add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
-                                   const Vector<Dim>& force, NodeVectors<Dim>& loads) const {
-  add_force_at<Dim>(grid, carrier(grid, sorted, place), force, loads);
+                                   const Vector<Dim>& force, NodalLoads<Dim>& loads) const {
+  loads.add_at(carrier(grid, sorted, place), force);
 }
 
 template <int Dim>
 void LoadedSurface<Dim>::add_traction(const Grid<Dim>& grid, const PointsByElement& sorted,
-                                      const Vector<Dim>& traction, NodeVectors<Dim>& loads) const {
+                                      const Vector<Dim>& traction, NodalLoads<Dim>& loads) const {
   for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
     add_force(grid, sorted, i, area_[i] * traction, loads);
   }
@@ -144,7 +141,7 @@ void LoadedSurface<Dim>::add_traction(const Grid<Dim>& grid, const PointsByEleme
 
 template <int Dim>
 void LoadedSurface<Dim>::add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted,
-                                      double pressure, NodeVectors<Dim>& loads) const {
+                                      double pressure, NodalLoads<Dim>& loads) const {
   add_pressures(
       grid, sorted, [&](const Vector<Dim>&) { return pressure; }, loads);
 }
@@ -178,17 +175,17 @@ void LoadedSurface<Dim>::move(const Grid<Dim>& grid, const PointsByElement& sort
 }
 
 template void add_point_forces(const Grid<2>&, const SolidPoints<2>&, const std::vector<Vector<2>>&,
-                               NodeVectors<2>&);
+                               NodalLoads<2>&);
 template void add_point_forces(const Grid<3>&, const SolidPoints<3>&, const std::vector<Vector<3>>&,
-                               NodeVectors<3>&);
+                               NodalLoads<3>&);
 template Vector<2> downwards<2>(const std::array<double, 3>&);
 template Vector<3> downwards<3>(const std::array<double, 3>&);
 template void add_weight(const Grid<2>&, const SolidPoints<2>&, const std::vector<double>&,
-                         const SoilMass&, const std::array<double, 3>&, NodeVectors<2>&);
+                         const SoilMass&, const std::array<double, 3>&, NodalLoads<2>&);
 template int soil_beside(const Grid<2>&, const PointsByElement&, int);
 template std::vector<char> nodes_of_soil(const Grid<2>&, const PointsByElement&);
 template void add_weight(const Grid<3>&, const SolidPoints<3>&, const std::vector<double>&,
-                         const SoilMass&, const std::array<double, 3>&, NodeVectors<3>&);
+                         const SoilMass&, const std::array<double, 3>&, NodalLoads<3>&);
 template int soil_beside(const Grid<3>&, const PointsByElement&, int);
 template std::vector<char> nodes_of_soil(const Grid<3>&, const PointsByElement&);
 template class LoadedSurface<2>;

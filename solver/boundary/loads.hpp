@@ -1,19 +1,20 @@
 #pragma once
 
-/// Loads on the solid, as forces on the nodes.
+/// Loads on the solid.
 
 #include <array>
 #include <vector>
 
-#include "equilibrium/element_classes.hpp"
-#include "equilibrium/supports.hpp"
+#include "boundary/nodal_loads.hpp"
+#include "solid/element_classes.hpp"
 
 namespace suffuse {
 
-/// Adds forces at solid points, N per point, to those on the nodes.
+/// Adds forces at solid points, N per point. On quadratic displacements they act as if spread over
+/// the element, as the stress does.
 template <int Dim>
 void add_point_forces(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
-                      const std::vector<Vector<Dim>>& force, NodeVectors<Dim>& loads);
+                      const std::vector<Vector<Dim>>& force, NodalLoads<Dim>& loads);
 
 /// Mass of the soil.
 struct SoilMass {
@@ -26,7 +27,7 @@ struct SoilMass {
 template <int Dim>
 void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                 const std::vector<double>& soil_volume, const SoilMass& mass,
-                const std::array<double, 3>& gravity, NodeVectors<Dim>& loads);
+                const std::array<double, 3>& gravity, NodalLoads<Dim>& loads);
 
 /// The element with soil at a face; at the border of the mesh the only one.
 template <int Dim>
@@ -51,15 +52,15 @@ class LoadedSurface {
   /// element of a place has no soil left, the nearest element with soil below takes the load with
   /// its linear functions extrapolated to the place: forces and moments do not change.
   void add_traction(const Grid<Dim>& grid, const PointsByElement& sorted,
-                    const Vector<Dim>& traction, NodeVectors<Dim>& loads) const;
+                    const Vector<Dim>& traction, NodalLoads<Dim>& loads) const;
   /// Adds a pressure, Pa, normal to the present surface.
   void add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted, double pressure,
-                    NodeVectors<Dim>& loads) const;
+                    NodalLoads<Dim>& loads) const;
 
   /// Adds a pressure `pressure(x)`, Pa, which varies in space, on the present surface.
   template <class Pressure>
   void add_pressures(const Grid<Dim>& grid, const PointsByElement& sorted, const Pressure& pressure,
-                     NodeVectors<Dim>& loads) const {
+                     NodalLoads<Dim>& loads) const {
     for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
       add_force(grid, sorted, i, -pressure(position_[i]) * normal_[i], loads);
     }
@@ -77,7 +78,7 @@ class LoadedSurface {
   [[nodiscard]] PointPlace<Dim> carrier(const Grid<Dim>& grid, const PointsByElement& sorted,
                                         int place) const;
   void add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
-                 const Vector<Dim>& force, NodeVectors<Dim>& loads) const;
+                 const Vector<Dim>& force, NodalLoads<Dim>& loads) const;
 
   std::vector<Vector<Dim>> position_;  ///< m
   std::vector<int> element_;           ///< of the soil below

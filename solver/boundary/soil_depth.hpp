@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "equilibrium/solid_points.hpp"
-#include "equilibrium/supports.hpp"
 #include "solid/soil_map.hpp"
+#include "solid/solid_points.hpp"
+#include "solid/supports.hpp"
 
 namespace suffuse {
 

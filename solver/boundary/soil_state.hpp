@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "equilibrium/solid_points.hpp"
 #include "solid/skeleton.hpp"
+#include "solid/solid_points.hpp"
 
 namespace suffuse {
 

@@ -67,32 +67,36 @@ void VirtualStress<Dim>::cover(const Grid<Dim>& grid, const PointsByElement& sor
 template <int Dim>
 bool VirtualStress<Dim>::add(const Grid<Dim>& grid, const PointsByElement& sorted,
                              const std::vector<double>& soil_volume, const Vector<Dim>& traction,
-                             NodeVectors<Dim>& loads) const {
+                             NodalLoads<Dim>& loads) const {
   const std::vector<char> of_soil = nodes_of_soil(grid, sorted);
-  std::vector<double> share(loads.size(), 0.0);  // of the area, per node, m2
+  NodalLoads<Dim> share = loads.none();  // of the area, as first component, m2
   double sum = 0.0;
   double whole = 0.0;
-  const auto add_to = [&](int node, double part) {
-    if (of_soil[node] == 0) return;
-    share[node] += part;
-    sum += part;
+  const auto part = [&](double area) {
+    sum += area;
+    return Vector<Dim>(area * Vector<Dim>::UnitX());
   };
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     whole += normal_[k].norm();
-    for (const int i : grid.face_nodes[faces_[k]]) add_to(i, normal_[k].norm() / Dim);
+    share.add(
+        grid.face_nodes[faces_[k]], [&](std::size_t) { return part(normal_[k].norm() / Dim); },
+        EdgeShare<Dim>::face, of_soil);
   }
   for (const Covered& c : covered_) {
     const double left = grid.volume[c.element] - soil_volume[c.element];
     const Vector<Dim> normal = normal_[c.face].normalized();
-    for (int a = 0; a <= Dim; ++a) {
-      add_to(grid.mesh.elements[c.element][a],
-             -left * normal.dot(grid.shape_gradient[c.element][a]));
-    }
+    const auto& gradient = grid.shape_gradient[c.element];
+    share.add(
+        grid.mesh.elements[c.element],
+        [&](std::size_t a) { return part(-left * normal.dot(gradient[a])); },
+        EdgeShare<Dim>::stress, of_soil);
   }
   if (sum < 0.5 * whole) return false;
   // Elements across the border of the surface are covered whole or not at all: keep the force.
   const Vector<Dim> per_area = whole / sum * traction;
-  for (std::size_t i = 0; i < loads.size(); ++i) loads[i] += share[i] * per_area;
+  for (std::size_t i = 0; i < loads.forces().size(); ++i) {
+    loads.forces()[i] += share.forces()[i][0] * per_area;
+  }
   return true;
 }
 

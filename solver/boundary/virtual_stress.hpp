@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "equilibrium/solid_points.hpp"
-#include "equilibrium/supports.hpp"
+#include "boundary/nodal_loads.hpp"
 
 namespace suffuse {
 
@@ -31,7 +30,7 @@ class VirtualStress {
   /// \param soil_volume  see `soil_volumes`
   bool add(const Grid<Dim>& grid, const PointsByElement& sorted,
            const std::vector<double>& soil_volume, const Vector<Dim>& traction,
-           NodeVectors<Dim>& loads) const;
+           NodalLoads<Dim>& loads) const;
   /// Share of a load that acts so: all as long as its places have moved sideways by less than half
   /// an element, nothing from one element on. Soil that runs out takes its load along.
   [[nodiscard]] double share(const Grid<Dim>& grid, const std::vector<Vector<Dim>>& places) const;

@@ -13,15 +13,6 @@ namespace {
 /// Threads pay off from this number of elements on.
 constexpr int worth_sharing = 256;
 
-template <int Dim>
-std::vector<int> elements_with_points(const SolidBody<Dim>& body) {
-  std::vector<int> result;
-  for (int e = 0; e < body.grid.mesh.element_count(); ++e) {
-    if (!body.sorted.is_empty(e)) result.push_back(e);
-  }
-  return result;
-}
-
 /// Elastic soil of a higher Poisson's ratio is so stiff against changes of its volume that linear
 /// displacements lock.
 constexpr double least_locking_poisson = 0.4;
@@ -57,20 +48,6 @@ Eigen::Matrix<double, Dim, Dim> displacement_gradient(const Grid<Dim>& grid,
   return gradient;
 }
 
-/// Hooke's law: the derivative of the stress by the gradient of a small displacement.
-template <int Dim>
-DeformationTangent<Dim> hooke_tangent(double lame, double shear) {
-  DeformationTangent<Dim> tangent = DeformationTangent<Dim>::Zero();
-  for (int i = 0; i < Dim; ++i) {
-    for (int j = 0; j < Dim; ++j) {
-      tangent(i + Dim * i, j + Dim * j) += lame;
-      tangent(i + Dim * j, i + Dim * j) += shear;
-      tangent(i + Dim * j, j + Dim * i) += shear;
-    }
-  }
-  return tangent;
-}
-
 /// (Jm/J)^(1/d): a factor on F that makes its determinant Jm.
 template <int Dim>
 double law_factor(double mean_ratio, double ratio) {
@@ -82,6 +59,28 @@ double law_factor(double mean_ratio, double ratio) {
 PointSkeleton skeleton_at(const SkeletonModel& model, double fines_left) {
   if (model.moves()) return {model.law, model.at(fines_left)};
   return {skeleton_law("elastic"), {.young = 1.0}};
+}
+
+template <int Dim>
+std::vector<int> elements_with_points(const SolidBody<Dim>& body) {
+  std::vector<int> result;
+  for (int e = 0; e < body.grid.mesh.element_count(); ++e) {
+    if (!body.sorted.is_empty(e)) result.push_back(e);
+  }
+  return result;
+}
+
+template <int Dim>
+DeformationTangent<Dim> hooke_tangent(double lame, double shear) {
+  DeformationTangent<Dim> tangent = DeformationTangent<Dim>::Zero();
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) {
+      tangent(i + Dim * i, j + Dim * j) += lame;
+      tangent(i + Dim * j, i + Dim * j) += shear;
+      tangent(i + Dim * j, j + Dim * i) += shear;
+    }
+  }
+  return tangent;
 }
 
 template <int Dim>
@@ -109,14 +108,14 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
   mean_ratio_ = ratio_;
   stress_.assign(count, Gradient::Zero());
   effective_.assign(count, Gradient::Zero());
-  soil_volume_ = soil_volumes(body.points, body.sorted, body.classes);
+  soil_volume_ = suffuse::soil_volumes(body.points, body.sorted, body.classes);
   for (const int e : elements_) set_soft_stiffness(e);
   double sum = 0.0;
   for (const int e : elements_) {
     const double modulus = elastic_tangent(e)(0, 0);
     for (const Vector<Dim>& g : body.grid.shape_gradient[e]) sum += (modulus * g).squaredNorm();
   }
-  least_force_ = least_strain * std::sqrt(sum);
+  least_force_ = this->least_strain * std::sqrt(sum);
   dilatation_ = SharedDilatation<Dim>(body.grid, locking_volumes(body, supports, soil_volume_));
 }
 
@@ -468,6 +467,10 @@ void Equilibrium<Dim>::assemble_elastic(Eigen::SparseMatrix<double>& stiffness) 
   dilatation_.add_elastic(body_.grid, unknowns_, shared, *pattern_, stiffness);
 }
 
+template std::vector<int> elements_with_points(const SolidBody<2>&);
+template std::vector<int> elements_with_points(const SolidBody<3>&);
+template DeformationTangent<2> hooke_tangent<2>(double, double);
+template DeformationTangent<3> hooke_tangent<3>(double, double);
 template Increments<2> increments_of(const Grid<2>&, const NodeVectors<2>&);
 template Increments<3> increments_of(const Grid<3>&, const NodeVectors<3>&);
 template class Equilibrium<2>;

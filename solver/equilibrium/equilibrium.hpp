@@ -7,10 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "equilibrium/element_classes.hpp"
+#include "equilibrium/force_balance.hpp"
 #include "equilibrium/shared_dilatation.hpp"
-#include "equilibrium/supports.hpp"
 #include "physics/skeleton/skeleton_response.hpp"
+#include "solid/element_classes.hpp"
+#include "solid/supports.hpp"
 
 namespace suffuse {
 
@@ -51,6 +52,14 @@ struct SolidBody {
   SoftStiffness soft = {};
 };
 
+/// Elements with points, ascending.
+template <int Dim>
+std::vector<int> elements_with_points(const SolidBody<Dim>& body);
+
+/// Hooke's law: the derivative of the stress by the gradient of a small displacement.
+template <int Dim>
+DeformationTangent<Dim> hooke_tangent(double lame, double shear);
+
 /// Increments F = I + grad du of the deformation gradient, per element.
 template <int Dim>
 using Increments = std::vector<Eigen::Matrix<double, Dim, Dim>>;
@@ -72,14 +81,14 @@ Increments<Dim> increments_of(const Grid<Dim>& grid, const NodeVectors<Dim>& dis
 /// forces do the same work as the laws. Contributions of elements are added in the order of the
 /// elements: the same bits on any number of threads.
 template <int Dim>
-class Equilibrium {
+class Equilibrium final : public ForceBalance<Dim> {
  public:
   using Gradient = Eigen::Matrix<double, Dim, Dim>;
 
   /// Keeps references to the body and the supports.
   Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& supports, int threads);
 
-  [[nodiscard]] const DisplacementUnknowns<Dim>& unknowns() const { return unknowns_; }
+  [[nodiscard]] const DisplacementUnknowns<Dim>& unknowns() const override { return unknowns_; }
   /// Pore pressure per element, Pa; empty: none.
   /// \param stiffness  the pressure falls by this times J - 1, per element, Pa; empty: by nothing
   void set_pressure(std::vector<double> pressure, std::vector<double> stiffness = {}) {
@@ -92,36 +101,25 @@ class Equilibrium {
   void set_inertia(const std::vector<double>& mass, const NodeVectors<Dim>& velocity, double dt);
 
   /// Whether a displacement leaves each element with soil more than `min_ratio` of its volume.
-  [[nodiscard]] bool is_possible(const NodeVectors<Dim>& displacement) const;
-  /// Sets the displacement over the step, m, which must be possible. Tangents cost more than
-  /// forces; `assemble` needs them. The last displacement costs nothing.
-  void displace(const NodeVectors<Dim>& displacement, bool with_tangents);
-  /// Finds the tangents at the last displacement.
-  void find_tangents() {
+  [[nodiscard]] bool is_possible(const NodeVectors<Dim>& displacement) const override;
+  void displace(const NodeVectors<Dim>& displacement, bool with_tangents) override;
+  void find_tangents() override {
     if (!has_tangents_) displace(NodeVectors<Dim>(displacement_), true);
   }
   /// To be called after the stress of the points has changed.
   void forget_displacement() { displacement_.clear(); }
 
-  /// Forces of the solid and its pore water on the nodes, N.
-  [[nodiscard]] NodeVectors<Dim> forces() const;
+  [[nodiscard]] NodeVectors<Dim> forces() const override;
   /// Norm of the forces of inertia, N.
   [[nodiscard]] double inertia_norm() const;
-  [[nodiscard]] bool has_inertia() const { return !inertia_.empty(); }
-  /// Norm of the forces of all elements, balanced or not, plus that at a strain of `least_strain`,
-  /// N. Residuals are relative to it, also without stress.
-  [[nodiscard]] double force_scale() const;
+  [[nodiscard]] bool has_inertia() const override { return !inertia_.empty(); }
+  [[nodiscard]] double force_scale() const override;
   /// Increments that laws see at a possible displacement, m.
   [[nodiscard]] Increments<Dim> law_increments(const NodeVectors<Dim>& displacement) const;
-  using Pattern = std::shared_ptr<const StiffnessPattern<Dim>>;
-  /// Takes this pattern of matrices if it is that of this body, otherwise sets it to that. Returns
-  /// whether it was taken.
-  bool share_pattern(Pattern& pattern);
-  /// Sets the derivative of the forces by the unknowns, N/m. Its pattern is always the same.
-  void assemble(Eigen::SparseMatrix<double>& tangent);
-  /// The elastic stiffness of this body without stress. It is symmetric and, where the soil is
-  /// held, positive definite, so that its factor serves as a preconditioner.
-  void assemble_elastic(Eigen::SparseMatrix<double>& stiffness);
+  using typename ForceBalance<Dim>::Pattern;
+  bool share_pattern(Pattern& pattern) override;
+  void assemble(Eigen::SparseMatrix<double>& tangent) override;
+  void assemble_elastic(Eigen::SparseMatrix<double>& stiffness) override;
 
   /// Mean effective stress sigma' of an element with soil, after the displacement, Pa; tension is
   /// positive. In two dimensions, the part in the plane. In a patch, the one that is in balance.
@@ -137,13 +135,13 @@ class Equilibrium {
   [[nodiscard]] Moduli mean_moduli(int element) const;
   /// Volume of an element that counts as soil at the start of the step, m3.
   [[nodiscard]] double soil_volume(int element) const { return soil_volume_[element]; }
+  [[nodiscard]] const std::vector<double>& soil_volumes() const { return soil_volume_; }
 
   /// J = det F of an element.
   [[nodiscard]] double volume_ratio(int element) const { return ratio_[element]; }
 
   /// Least det F after a step.
   static constexpr double min_ratio = 0.1;
-  static constexpr double least_strain = 1e-4;
 
  private:
   static constexpr int size = Dim * (Dim + 1);

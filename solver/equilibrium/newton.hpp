@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "equilibrium/equilibrium.hpp"
+#include "equilibrium/force_balance.hpp"
 #include "equilibrium/kept_stiffness.hpp"
 
 namespace suffuse {
@@ -49,7 +49,7 @@ class EquilibriumSolver {
   /// Keeps a reference.
   /// \param kept  of earlier equilibria of this soil
   explicit EquilibriumSolver(
-      Equilibrium<Dim>& equilibrium,
+      ForceBalance<Dim>& equilibrium,
       std::shared_ptr<KeptStiffness<Dim>> kept = std::make_shared<KeptStiffness<Dim>>())
       : equilibrium_(equilibrium), kept_(std::move(kept)) {}
 
@@ -81,7 +81,7 @@ class EquilibriumSolver {
   bool improve(const NodeVectors<Dim>& loads, const Eigen::VectorXd& force, double accuracy,
                int halvings, NodeVectors<Dim>& displacement);
 
-  Equilibrium<Dim>& equilibrium_;
+  ForceBalance<Dim>& equilibrium_;
   std::shared_ptr<KeptStiffness<Dim>> kept_;
   Eigen::SparseMatrix<double> matrix_;
   bool factorised_ = false;  ///< whether the factor is that of this body

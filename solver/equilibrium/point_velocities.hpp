@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "equilibrium/solid_points.hpp"
-#include "equilibrium/supports.hpp"
+#include "solid/solid_points.hpp"
+#include "solid/supports.hpp"
 
 namespace suffuse {
 

@@ -33,10 +33,11 @@ constexpr double least_fall = 1e-4;
 }  // namespace
 
 template <int Dim>
-PseudoTime<Dim>::PseudoTime(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads)
+PseudoTime<Dim>::PseudoTime(ForceBalance<Dim>& equilibrium, const NodeVectors<Dim>& loads)
     : equilibrium_(equilibrium), loads_(loads) {
   equilibrium_.assemble_elastic(elastic_);
   system_.factorise(elastic_);
+  system_.go_on_directly();
 }
 
 template <int Dim>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "equilibrium/equilibrium.hpp"
+#include "equilibrium/force_balance.hpp"
 #include "linear/newton_system.hpp"
 
 namespace suffuse {
@@ -69,7 +69,7 @@ class PseudoTime {
  public:
   /// Keeps references. Throws NumericalError when nothing holds the soil.
   /// \param loads  per node, N
-  PseudoTime(Equilibrium<Dim>& equilibrium, const NodeVectors<Dim>& loads);
+  PseudoTime(ForceBalance<Dim>& equilibrium, const NodeVectors<Dim>& loads);
 
   /// Leaves the equilibrium displaced by the result.
   /// \param start  displacement to start from, m, which must be possible
@@ -92,7 +92,7 @@ class PseudoTime {
     NodeVectors<Dim> displacement;  ///< m
   };
 
-  Equilibrium<Dim>& equilibrium_;
+  ForceBalance<Dim>& equilibrium_;
   const NodeVectors<Dim>& loads_;
   NewtonSystem system_;
   Eigen::SparseMatrix<double> elastic_;

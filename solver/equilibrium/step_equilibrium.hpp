@@ -2,6 +2,7 @@
 
 /// The equilibrium of one step, to be solved repeatedly for different loads and pore pressures.
 
+#include "equilibrium/equilibrium.hpp"
 #include "equilibrium/newton.hpp"
 #include "equilibrium/point_velocities.hpp"
 #include "equilibrium/pseudo_time.hpp"

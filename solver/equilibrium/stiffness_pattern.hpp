@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "equilibrium/supports.hpp"
+#include "solid/supports.hpp"
 
 namespace suffuse {
 
@@ -14,10 +14,12 @@ namespace suffuse {
 template <int Dim>
 inline constexpr std::size_t element_components = std::size_t(Dim) * (Dim + 1);
 
-/// What couples unknowns: elements with soil, and patches that share their dilatation.
+/// What couples unknowns: linear displacements of elements with soil, and patches.
 struct SoilCouplings {
   std::vector<int> elements;
-  std::vector<std::vector<int>> patches;  ///< nodes of each
+  /// Nodes of each patch that shares its dilatation; nodes and edges of each element with quadratic
+  /// displacements.
+  std::vector<std::vector<int>> patches;
 
   bool operator==(const SoilCouplings&) const = default;
   void archive(auto& archive) { archive(elements, patches); }

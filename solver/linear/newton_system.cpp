@@ -99,15 +99,22 @@ void NewtonSystem::refuse_unsolved() {
 
 void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
                          Eigen::VectorXd& x, double accuracy) {
-  FactorPreconditioner preconditioner;
-  preconditioner.factor = factor_.get();
-  if (iterate(matrix, preconditioner, rhs, x, accuracy)) return;
-  if (!factor_->is_exact()) refuse_unsolved();
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> direct(matrix);
-  if (direct.info() == Eigen::Success) x = direct.solve(rhs);
-  if (direct.info() != Eigen::Success || !x.allFinite()) {
+  if (!goes_on_directly_ || !iterations_failed_) {
+    FactorPreconditioner preconditioner;
+    preconditioner.factor = factor_.get();
+    if (iterate(matrix, preconditioner, rhs, x, accuracy)) return;
+    if (!factor_->is_exact()) refuse_unsolved();
+  }
+  if (!direct_) {
+    direct_ = std::make_unique<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
+    direct_->analyzePattern(matrix);
+  }
+  direct_->factorize(matrix);
+  if (direct_->info() == Eigen::Success) x = direct_->solve(rhs);
+  if (direct_->info() != Eigen::Success || !x.allFinite()) {
     throw NumericalError("the pressures could not be solved for: the system is singular");
   }
+  iterations_failed_ = true;
 }
 
 void NewtonSystem::solve_tangent(const Eigen::SparseMatrix<double>& matrix,

@@ -5,6 +5,7 @@
 /// the symmetric one, or directly if that takes too long.
 
 #include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
 #include <memory>
 #include <utility>
 
@@ -26,12 +27,16 @@ class NewtonSystem {
   /// Sets x to the solution with the factored matrix itself.
   void solve_nearly(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) { factor_->solve(rhs, x); }
 
-  /// Sets x to the solution of matrix x = rhs. Throws NumericalError if there is none, or if
-  /// iterations with an inexact factor do not find it: such matrices are too large to be solved
-  /// directly.
-  /// \param accuracy  of the residual, relative to the right-hand side
+  /// Sets x to the solution of matrix x = rhs. Throws
+  /// NumericalError if there is none, or if iterations with an inexact factor do not find it: such
+  /// matrices are too large to be solved directly. \param accuracy  of the residual, relative to
+  /// the right-hand side
   void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
              Eigen::VectorXd& x, double accuracy = 1e-9);
+
+  /// Lets `solve` leave out iterations once they have failed: tangents of soil that yields stay far
+  /// from the elastic stiffness.
+  void go_on_directly() { goes_on_directly_ = true; }
 
   /// Solves for a tangent that is far from the symmetric matrix, where the next iteration of the
   /// caller corrects the error: with an inexact factor the residual may be 1e-4 of the right-hand
@@ -68,6 +73,11 @@ class NewtonSystem {
 
   std::unique_ptr<Factor> factor_;
   Eigen::VectorXd factored_;  ///< values of the matrix that is factored
+  /// Has the order of the unknowns, which all matrices of one pattern share; null until it is
+  /// needed.
+  std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> direct_;
+  bool goes_on_directly_ = false;
+  bool iterations_failed_ = false;
   SolveCounts counts_;
 };
 

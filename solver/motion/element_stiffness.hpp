@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "equilibrium/element_classes.hpp"
-#include "equilibrium/solid_points.hpp"
+#include "solid/element_classes.hpp"
 #include "solid/skeleton.hpp"
+#include "solid/solid_points.hpp"
 
 namespace suffuse {
 

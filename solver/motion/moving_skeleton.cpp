@@ -217,16 +217,16 @@ NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
                                             const ElementClasses& classes) const {
   const SoilMap<Dim>& soils = this->soils();
   const SoilMass mass{.solid = solid_mass, .liquid = forcing.liquid_mass};
-  NodeVectors<Dim> result(this->grid_.mesh.node_count(), Vector<Dim>::Zero());
+  NodalLoads<Dim> result(this->grid_);
   const std::vector<double> volume = soil_volumes(points_, sorted, classes);
   add_weight(this->grid_, points_, volume, mass, soils.scene().gravity, result);
   boundary_loads_.add(sorted, volume, forcing.end, result);
-  construction_.add(forcing.end, result);
+  construction_.add(forcing.end, result.forces());
   if (has_free_water_) {
     add_free_water(this->grid_, sorted, volume, pressure, forcing.liquid_mass,
                    soils.scene().gravity, result);
   }
-  return result;
+  return std::move(result.forces());
 }
 
 template <int Dim>
@@ -283,7 +283,9 @@ void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
   step.nodes = inertia_.nodes(this->grid_, points_, step.mass);
   NodalMotion<Dim> nodes = step.nodes;
   if (has_free_water_)
-    add_free_water_mass(this->grid_, *step.equilibrium, step.forcing.liquid_mass, nodes.mass);
+    add_free_water_mass(this->grid_, step.equilibrium->sorted(),
+                        step.equilibrium->equilibrium().soil_volumes(), step.forcing.liquid_mass,
+                        nodes.mass);
   step.equilibrium->set_inertia(nodes, duration);
 }
 

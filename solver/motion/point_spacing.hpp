@@ -2,8 +2,8 @@
 
 /// Spreads points that lie too close together.
 
-#include "equilibrium/solid_points.hpp"
-#include "equilibrium/supports.hpp"
+#include "solid/solid_points.hpp"
+#include "solid/supports.hpp"
 
 namespace suffuse {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "equilibrium/solid_points.hpp"
 #include "linear/cholesky_factor.hpp"
+#include "solid/solid_points.hpp"
 
 namespace suffuse {
 

@@ -65,7 +65,8 @@ std::vector<double> surface_cohesion(const SoilMap<Dim>& soils, const SoilState<
 template <int Dim>
 SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                 const SoilState<Dim>& state, const FailingSoil& failing,
-                                int threads, const StrengthReductionLimits& limits) {
+                                Displacements displacements, int threads,
+                                const StrengthReductionLimits& limits) {
   const Supports<Dim> supports = scene_supports(grid, soils);
   const PointsByElement sorted(grid.mesh.element_count(), state.points.element);
   const ElementClasses classes(grid, state.points, sorted);
@@ -79,7 +80,9 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
     }
     mass.solid.push_back(state.solid_volume[p] * soil.grain_density);
   }
-  NodeVectors<Dim> loads(grid.mesh.node_count(), Vector<Dim>::Zero());
+  NodalLoads<Dim> loads = displacements == Displacements::linear
+                              ? NodalLoads<Dim>(grid)
+                              : NodalLoads<Dim>(grid, std::make_shared<QuadraticShapes<Dim>>(grid));
   const std::vector<double> volume = soil_volumes(state.points, sorted, classes);
   add_weight(grid, state.points, volume, mass, soils.scene().gravity, loads);
   moved_loads(grid, soils, state).add(sorted, volume, state.time, loads);
@@ -97,8 +100,10 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
 }
 
 template SafetyFactor find_safety_factor(const Grid<2>&, const SoilMap<2>&, const SoilState<2>&,
-                                         const FailingSoil&, int, const StrengthReductionLimits&);
+                                         const FailingSoil&, Displacements, int,
+                                         const StrengthReductionLimits&);
 template SafetyFactor find_safety_factor(const Grid<3>&, const SoilMap<3>&, const SoilState<3>&,
-                                         const FailingSoil&, int, const StrengthReductionLimits&);
+                                         const FailingSoil&, Displacements, int,
+                                         const StrengthReductionLimits&);
 
 }  // namespace suffuse

@@ -26,12 +26,19 @@ struct FailingSoil {
   }
 };
 
+/// Displacements in the trials of strength reduction.
+enum class Displacements {
+  linear,    ///< those of a run
+  quadratic  ///< nearer to the limit on coarse meshes, and slower: see `QuadraticEquilibrium`
+};
+
 /// Largest divisor of the strength of the soils for which this state has an equilibrium, under the
 /// weight and the loads of the scene at that time. Loaded surfaces are moved with the soil. Throws
 /// NumericalError when nothing holds the soil.
 template <int Dim>
 SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                 const SoilState<Dim>& state, const FailingSoil& failing,
-                                int threads, const StrengthReductionLimits& limits = {});
+                                Displacements displacements, int threads,
+                                const StrengthReductionLimits& limits = {});
 
 }  // namespace suffuse

@@ -6,7 +6,9 @@
 #include <limits>
 #include <set>
 
+#include "equilibrium/newton.hpp"
 #include "equilibrium/pseudo_time.hpp"
+#include "equilibrium/quadratic_equilibrium.hpp"
 
 namespace suffuse {
 namespace {
@@ -38,23 +40,29 @@ std::vector<double> components(const NodeVectors<Dim>& vectors) {
 }
 
 template <int Dim>
+SolidPoints<Dim> without_stress(SolidPoints<Dim> points) {
+  for (SkeletonState& state : points.skeleton) state.elastic_b.setIdentity();
+  return points;
+}
+
+template <int Dim>
 class StrengthReduction {
  public:
   StrengthReduction(const SolidBody<Dim>& body, const Supports<Dim>& supports,
-                    const NodeVectors<Dim>& loads, const std::vector<double>& pressure, int threads,
+                    const NodalLoads<Dim>& loads, const std::vector<double>& pressure, int threads,
                     const StrengthReductionLimits& limits, const std::vector<double>& kept_cohesion)
       : body_(body),
         supports_(supports),
-        loads_(loads),
+        shapes_(loads.shapes()),
+        loads_(loads.forces()),
         pressure_(pressure),
         threads_(threads),
         limits_(limits),
         kept_cohesion_(kept_cohesion),
-        points_(body.points),
+        points_(without_stress(body.points)),
         skeleton_(body.skeleton),
-        held_(loads.size(), Vector<Dim>::Zero()),
-        loose_(loads.size(), 0) {
-    for (SkeletonState& state : points_.skeleton) state.elastic_b.setIdentity();
+        held_(loads_.size(), Vector<Dim>::Zero()),
+        loose_(loads_.size(), 0) {
     find_stiffness();
   }
 
@@ -88,16 +96,15 @@ class StrengthReduction {
   /// One trial, from the equilibrium of the largest factor that holds.
   void attempt(double factor) {
     set_strength(factor);
-    Equilibrium<Dim> equilibrium(body(), supports_, threads_);
-    equilibrium.set_pressure(pressure_);
+    const auto equilibrium = balance();
     NewtonSolution<Dim> solution =
-        EquilibriumSolver<Dim>(equilibrium).solve(loads_, held_, limits_.newton);
+        EquilibriumSolver<Dim>(*equilibrium, kept_).solve(loads_, held_, limits_.newton);
     SettledSoil<Dim> soil;
     soil.residual = solution.residuals.back();
     soil.iterations = solution.iterations();
     const double far = limits_.runaway * elastic_max_;
     if (!solution.converged) {
-      soil = PseudoTime<Dim>(equilibrium, loads_)
+      soil = PseudoTime<Dim>(*equilibrium, loads_)
                  .settle(held_, {.tolerance = limits_.newton.tolerance,
                                  .far = far,
                                  .still = still_share * elastic_max_,
@@ -127,9 +134,10 @@ class StrengthReduction {
     } else if (soil.end == Settling::runs_away) {
       trial.end = TrialEnd::fails;
       result_.fails = factor;
+      soil.motion.resize(body_.grid.mesh.nodes.size());  // without edges
       result_.mechanism = components(soil.motion);
     } else {
-      result_.undecided_node = soil.worst_node;
+      result_.undecided_node = shapes_ ? shapes_->ends(soil.worst_node)[0] : soil.worst_node;
       undecided_.insert(factor);
     }
     result_.trials.push_back(trial);
@@ -150,14 +158,16 @@ class StrengthReduction {
     stiffness_ = 1e6 * std::max(force / std::pow(size, Dim - 1), 1.0) / young;
     elastic_max_ = elastic_displacement * size;
     set_strength(1.0);
-    Equilibrium<Dim> equilibrium(body(), supports_, threads_);
-    equilibrium.set_pressure(pressure_);
+    const auto equilibrium = balance();
     elastic_ =
-        EquilibriumSolver<Dim>(equilibrium).solve(loads_, held_, limits_.newton).displacement;
+        EquilibriumSolver<Dim>(*equilibrium).solve(loads_, held_, limits_.newton).displacement;
     double sum = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i) sum += loads_[i].norm() * elastic_[i].norm();
     for (std::size_t i = 0; i < loose_.size(); ++i) {
       loose_[i] = elastic_[i].norm() * force > loose_displacement * sum ? 1 : 0;
+    }
+    for (int i = 0; shapes_ && i < shapes_->size(); ++i) {
+      for (const int end : shapes_->ends(i)) loose_[i] = std::max(loose_[i], loose_[end]);
     }
     const double first = largest_length<Dim>(elastic_, loose_);
     if (first > 0.0) {
@@ -175,19 +185,32 @@ class StrengthReduction {
     }
   }
 
-  [[nodiscard]] SolidBody<Dim> body() const {
-    return {body_.grid, points_, body_.sorted, skeleton_, body_.classes, soft_in_trials};
+  /// Forces of the soil with its present strength.
+  [[nodiscard]] std::unique_ptr<ForceBalance<Dim>> balance() const {
+    const SolidBody<Dim> body{body_.grid, points_,       body_.sorted,
+                              skeleton_,  body_.classes, soft_in_trials};
+    if (shapes_) {
+      auto quadratic =
+          std::make_unique<QuadraticEquilibrium<Dim>>(body, supports_, *shapes_, threads_);
+      quadratic->set_pressure(pressure_);
+      return quadratic;
+    }
+    auto linear = std::make_unique<Equilibrium<Dim>>(body, supports_, threads_);
+    linear->set_pressure(pressure_);
+    return linear;
   }
 
   const SolidBody<Dim>& body_;
   const Supports<Dim>& supports_;
+  const std::shared_ptr<const QuadraticShapes<Dim>> shapes_;  ///< null: linear displacements
   const NodeVectors<Dim>& loads_;
   const std::vector<double>& pressure_;
   int threads_;
   const StrengthReductionLimits& limits_;
   const std::vector<double>& kept_cohesion_;
-  SolidPoints<Dim> points_;  ///< without stress
-  std::vector<PointSkeleton> skeleton_;
+  SolidPoints<Dim> points_;              ///< without stress
+  std::vector<PointSkeleton> skeleton_;  ///< of the present trial
+  std::shared_ptr<KeptStiffness<Dim>> kept_ = std::make_shared<KeptStiffness<Dim>>();
   NodeVectors<Dim> held_;     ///< displacement in the trial of the largest factor that holds
   double stiffness_ = 1.0;    ///< of trials over that of the soil
   NodeVectors<Dim> elastic_;  ///< displacement of the elastic body in trials, m
@@ -209,7 +232,7 @@ SkeletonParameters reduced_strength(const SkeletonParameters& parameters, double
 
 template <int Dim>
 SafetyFactor find_safety_factor(const SolidBody<Dim>& body, const Supports<Dim>& supports,
-                                const NodeVectors<Dim>& loads, const std::vector<double>& pressure,
+                                const NodalLoads<Dim>& loads, const std::vector<double>& pressure,
                                 int threads, const StrengthReductionLimits& limits,
                                 const std::vector<double>& kept_cohesion) {
   return StrengthReduction<Dim>(body, supports, loads, pressure, threads, limits, kept_cohesion)
@@ -217,11 +240,11 @@ SafetyFactor find_safety_factor(const SolidBody<Dim>& body, const Supports<Dim>&
 }
 
 template SafetyFactor find_safety_factor(const SolidBody<2>&, const Supports<2>&,
-                                         const NodeVectors<2>&, const std::vector<double>&, int,
+                                         const NodalLoads<2>&, const std::vector<double>&, int,
                                          const StrengthReductionLimits&,
                                          const std::vector<double>&);
 template SafetyFactor find_safety_factor(const SolidBody<3>&, const Supports<3>&,
-                                         const NodeVectors<3>&, const std::vector<double>&, int,
+                                         const NodalLoads<3>&, const std::vector<double>&, int,
                                          const StrengthReductionLimits&,
                                          const std::vector<double>&);
 

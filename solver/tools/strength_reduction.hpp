@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "boundary/nodal_loads.hpp"
+#include "equilibrium/equilibrium.hpp"
 #include "equilibrium/newton.hpp"
 
 namespace suffuse {
@@ -19,7 +21,7 @@ struct StrengthReductionLimits {
   /// Displacements above this multiple of those of the elastic body mean failure.
   double runaway = 200.0;
   /// The tolerance is small, because residuals are relative to forces at a strain of at least
-  /// `Equilibrium::least_strain`, up to a thousand times those of the stiff soil of the trials.
+  /// `ForceBalance::least_strain`, up to a thousand times those of the stiff soil of the trials.
   NewtonLimits newton{.max_iterations = 60, .tolerance = 1e-9};
   /// Iterations of a trial in pseudo-time, after those of Newton's method.
   int settling_iterations = 600;
@@ -75,14 +77,14 @@ struct SafetyFactor {
 /// to first order.
 ///
 /// \param body      stresses and `plastic_strain` of its points are not used
-/// \param loads     per node, N
+/// \param loads     N; trials have linear or quadratic displacements as the loads have
 /// \param pressure  pore pressure per element, Pa; empty: none
 /// \param kept_cohesion  per point: additional cohesion that is not divided, Pa; empty: none
 ///
 /// Throws NumericalError when nothing holds the soil.
 template <int Dim>
 SafetyFactor find_safety_factor(const SolidBody<Dim>& body, const Supports<Dim>& supports,
-                                const NodeVectors<Dim>& loads, const std::vector<double>& pressure,
+                                const NodalLoads<Dim>& loads, const std::vector<double>& pressure,
                                 int threads, const StrengthReductionLimits& limits = {},
                                 const std::vector<double>& kept_cohesion = {});
 

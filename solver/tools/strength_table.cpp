@@ -180,8 +180,8 @@ class StrengthTable {
   std::string add(const Snapshot& snapshot, const std::string& where) {
     const SoilState<Dim> state = soil_state(grid_, soils_, snapshot);
     warn_of_suction(state, where);
-    SafetyFactor found =
-        find_safety_factor(grid_, soils_, state, options_.failing, options_.threads);
+    SafetyFactor found = find_safety_factor(grid_, soils_, state, options_.failing,
+                                            options_.displacements, options_.threads);
     mechanism_ = std::move(found.mechanism);
     factor_ = found.factor;
     time_ = state.time;

@@ -17,6 +17,7 @@ struct StrengthReductionOptions {
   /// VTKHDF file of the mechanism of failure on the mesh; empty: none. Only for one state.
   std::string mechanism;
   FailingSoil failing;
+  Displacements displacements = Displacements::linear;
   int threads = 1;
   bool quiet = false;  ///< only warnings on standard error
 };

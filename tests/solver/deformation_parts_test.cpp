@@ -511,8 +511,9 @@ struct LoadedHalf : PlaneModel {
 TEST(LoadedSurface, LoadsTheSoilBelowWithTheSameForceAndMoment) {
   LoadedHalf m;
   m.displace_surface(Eigen::Matrix2d::Zero(), Vector<2>(0.0, 0.2));  // in the next cell
-  NodeVectors<2> loads = m.no_loads();
-  m.surface.add_traction(m.grid, m.sorted, Vector<2>(3.0, -8.0), loads);
+  NodalLoads<2> on_nodes(m.grid);
+  m.surface.add_traction(m.grid, m.sorted, Vector<2>(3.0, -8.0), on_nodes);
+  const NodeVectors<2>& loads = on_nodes.forces();
   EXPECT_NEAR((LoadedHalf::sum(loads) - Vector<2>(3.0, -8.0)).norm(), 0.0, 1e-13);
   double moment = 0.0;
   for (int i = 0; i < m.mesh.node_count(); ++i) {
@@ -529,14 +530,15 @@ TEST(LoadedSurface, PressureFollowsItsAreaAndNormalAndATractionDoesNot) {
   Eigen::Matrix2d f;
   f << 0.8, 0.1, -0.2, 0.9;
   m.displace_surface(f - Eigen::Matrix2d::Identity(), Vector<2>(0.05, 0.1));
-  NodeVectors<2> pressed = m.no_loads();
+  NodalLoads<2> pressed(m.grid);
   m.surface.add_pressure(m.grid, m.sorted, 5.0, pressed);
   // The surface was from (0, 0.5) to (1, 0.5); its normal is to the left of this direction.
   const Vector<2> along = f * Vector<2>(1.0, 0.0);
-  EXPECT_NEAR((LoadedHalf::sum(pressed) + 5.0 * Vector<2>(-along[1], along[0])).norm(), 0.0, 1e-13);
-  NodeVectors<2> pulled = m.no_loads();
+  EXPECT_NEAR((LoadedHalf::sum(pressed.forces()) + 5.0 * Vector<2>(-along[1], along[0])).norm(),
+              0.0, 1e-13);
+  NodalLoads<2> pulled(m.grid);
   m.surface.add_traction(m.grid, m.sorted, Vector<2>(3.0, -8.0), pulled);
-  EXPECT_NEAR((LoadedHalf::sum(pulled) - Vector<2>(3.0, -8.0)).norm(), 0.0, 1e-13);
+  EXPECT_NEAR((LoadedHalf::sum(pulled.forces()) - Vector<2>(3.0, -8.0)).norm(), 0.0, 1e-13);
 }
 
 TEST(LoadedSurface, RefusesToLeaveTheMeshOrItsSoil) {
@@ -555,7 +557,7 @@ TEST(LoadedSurface, RefusesToLeaveTheMeshOrItsSoil) {
       "the mesh larger");
   LoadedHalf empty;
   empty.sorted = PointsByElement(empty.mesh.element_count(), {});
-  NodeVectors<2> loads = empty.no_loads();
+  NodalLoads<2> loads(empty.grid);
   EXPECT_EQ(message_of([&] {
               empty.surface.add_traction(empty.grid, empty.sorted, Vector<2>(0.0, 1.0), loads);
             }),
@@ -577,9 +579,9 @@ class Course {
   }
   void go(int from, int to) {
     for (int step = from; step < to; ++step) {
-      NodeVectors<2> loads = m_.weight(2e4 * (step + 1));
+      NodalLoads<2> loads = m_.weight_on(NodalLoads<2>(m_.grid), 2e4 * (step + 1));
       m_.surface.add_traction(m_.grid, m_.sorted, Vector<2>(1e3, -4e3 * (step + 1)), loads);
-      ASSERT_TRUE(m_.step(loads).converged);
+      ASSERT_TRUE(m_.step(loads.forces()).converged);
     }
   }
   void archive(StateArchive& archive) {
@@ -722,8 +724,8 @@ TEST(Inertia, OfWaterThatFillsTheRestOfAnElementActsAtItsNodesAlone) {
   const StepEquilibrium<2> step(model.grid, model.points, model.skeleton, supports, 1);
   const int e = model.points.element[0];
   std::vector<double> mass = lone.masses;
-  add_free_water_mass(model.grid, step, std::vector<double>(model.mesh.elements.size(), density),
-                      mass);
+  add_free_water_mass(model.grid, step.sorted(), step.equilibrium().soil_volumes(),
+                      std::vector<double>(model.mesh.elements.size(), density), mass);
   const double rest = density * (model.grid.volume[e] - model.points.volume[0]);
   EXPECT_GT(rest, 0.0);
   for (std::size_t i = 0; i < mass.size(); ++i) {

@@ -402,10 +402,10 @@ TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
                             PointsByElement(b.grid.mesh.element_count(), points.element));
   for (int k = 1; k <= 40; ++k) {
     StepEquilibrium<2> step(b.grid, points, skeleton, supports, 1);
-    NodeVectors<2> loads(b.input.mesh.node_count(), Vector<2>::Zero());
+    NodalLoads<2> loads(b.grid);
     boundary.add(step.sorted(), soil_volumes(points, step.sorted(), step.classes()), k / 40.0,
                  loads);
-    ASSERT_TRUE(step.solve(loads, {}));
+    ASSERT_TRUE(step.solve(loads.forces(), {}));
     boundary.move(step.sorted(), step.displacement());
     move_points(b.grid, skeleton, step.displacement(), step.law_increments(), points, 1);
   }

@@ -103,14 +103,16 @@ class SolidModel {
   [[nodiscard]] NodeVectors<Dim> no_loads() const {
     return NodeVectors<Dim>(mesh.node_count(), Vector<Dim>::Zero());
   }
+  /// No loads, on quadratic displacements.
+  [[nodiscard]] NodalLoads<Dim> no_quadratic_loads() const {
+    return {grid, std::make_shared<QuadraticShapes<Dim>>(grid)};
+  }
   /// Weight, N per m3 of the soil's volume at the start, along the last axis.
   [[nodiscard]] NodeVectors<Dim> weight(double weight) const {
-    std::vector<Vector<Dim>> force;
-    for (const double v : points.reference_volume)
-      force.emplace_back(-weight * v * Vector<Dim>::Unit(Dim - 1));
-    NodeVectors<Dim> loads = no_loads();
-    add_point_forces(grid, points, force, loads);
-    return loads;
+    return weight_on(NodalLoads<Dim>(grid), weight).forces();
+  }
+  [[nodiscard]] NodalLoads<Dim> quadratic_weight(double weight) const {
+    return weight_on(no_quadratic_loads(), weight);
   }
 
   [[nodiscard]] SolidBody<Dim> body() const { return {grid, points, sorted, skeleton, *classes}; }
@@ -130,6 +132,14 @@ class SolidModel {
                 equilibrium.law_increments(solution.displacement), points, threads);
     sort();
     return solution;
+  }
+
+  [[nodiscard]] NodalLoads<Dim> weight_on(NodalLoads<Dim> loads, double weight) const {
+    std::vector<Vector<Dim>> force;
+    for (const double v : points.reference_volume)
+      force.emplace_back(-weight * v * Vector<Dim>::Unit(Dim - 1));
+    add_point_forces(grid, points, force, loads);
+    return loads;
   }
 
   void sort() {

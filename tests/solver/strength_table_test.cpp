@@ -198,6 +198,24 @@ TEST(StrengthTable, SlopeUnderWaterHasTheFactorOfOneThatWeighsAsMuchAsItUnderWat
   EXPECT_EQ(wet.at("factor"), light.at("factor"));
   EXPECT_NEAR(wet.at("displacement_max")[0], light.at("displacement_max")[0],
               0.05 * light.at("displacement_max")[0]);
+  EXPECT_EQ(w.factors("wet", "--quadratic").at("factor"),
+            w.factors("light", "--quadratic").at("factor"));
+}
+
+TEST(StrengthTable, SlopeOnACoarseMeshWithQuadraticDisplacements) {
+  const Workshop w;
+  w.folder().write("slope.geo", slope_geometry);
+  w.mesh("slope", slope_scene({.mesh = 2.5, .cohesion = cohesion_for(0.05, dry_weight)}));
+  const double linear = w.factors("slope").at("factor")[0];
+  const double quadratic = w.factors("slope", "--quadratic --mechanism slip.hdf").at("factor")[0];
+  std::cout << "linear " << linear << ", quadratic " << quadratic << std::endl;
+  EXPECT_GT(linear, 1.03 * quadratic);
+  EXPECT_NEAR(quadratic, 1.4, 0.05);
+  const Hdf5File file(w.folder().file("slip.hdf"), Hdf5File::Mode::read);
+  EXPECT_EQ(read_field(file, "/VTKHDF/PointData", "mechanism").values.size(),
+            2 * file.read_doubles("/VTKHDF/Points").size() / 3);
+  EXPECT_EQ(w.refusal("slope.case.h5 --quadratic"),
+            "--quadratic requires --strength-reduction (see --help)\n");
 }
 
 // --------------------------------------------- soil that fails by itself beside a slope that holds

@@ -50,9 +50,9 @@ struct Loaded : model::SolidModel<Dim> {
     return soil_volumes(this->points, this->sorted, *this->classes);
   }
   [[nodiscard]] NodeVectors<Dim> forces(const Vector<Dim>& traction) const {
-    NodeVectors<Dim> loads = this->no_loads();
+    NodalLoads<Dim> loads(this->grid);
     EXPECT_TRUE(stress->add(this->grid, this->sorted, volumes(), traction, loads));
-    return loads;
+    return loads.forces();
   }
 
   std::vector<int> on;
@@ -69,8 +69,9 @@ Vector<Dim> traction() {
 template <int Dim>
 void is_that_of_the_faces_at_the_start(const Mesh<Dim>& mesh) {
   const Loaded<Dim> m(mesh);
-  NodeVectors<Dim> loads = m.no_loads();
-  m.surface.add_traction(m.grid, m.sorted, traction<Dim>(), loads);
+  NodalLoads<Dim> on_faces(m.grid);
+  m.surface.add_traction(m.grid, m.sorted, traction<Dim>(), on_faces);
+  const NodeVectors<Dim>& loads = on_faces.forces();
   const NodeVectors<Dim> found = m.forces(traction<Dim>());
   for (std::size_t i = 0; i < loads.size(); ++i) {
     EXPECT_NEAR((found[i] - loads[i]).norm(), 0.0, 1e-13) << i;
@@ -146,10 +147,10 @@ TEST(VirtualStress, EndsWhereSoilTakesItsLoadAlongOrIsGone) {
   EXPECT_NEAR(share_after(0.75 * height, 0.0), 0.5, 1e-12);
   EXPECT_EQ(share_after(1.1 * height, -0.3), 0.0);
   m.sorted = PointsByElement(m.mesh.element_count(), {});
-  NodeVectors<2> loads = m.no_loads();
+  NodalLoads<2> loads(m.grid);
   EXPECT_FALSE(m.stress->add(m.grid, m.sorted, std::vector<double>(m.mesh.element_count(), 0.0),
                              traction<2>(), loads));
-  for (const Vector<2>& force : loads) EXPECT_EQ(force.norm(), 0.0);
+  for (const Vector<2>& force : loads.forces()) EXPECT_EQ(force.norm(), 0.0);
 }
 
 }  // namespace virtual_stress_test

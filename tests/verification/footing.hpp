@@ -98,9 +98,10 @@ struct FootingModel : PlaneModel {
 /// NumericalError if Newton's method does not converge.
 inline double limit_load(const Footing& footing, int cells) {
   FootingModel m(footing, cells);
-  NodeVectors<2> loads = m.no_loads();
+  NodalLoads<2> surcharge(m.grid);
   LoadedSurface<2>(m.grid, m.sorted, m.beside)
-      .add_traction(m.grid, m.sorted, Vector<2>(0.0, -footing.surcharge), loads);
+      .add_traction(m.grid, m.sorted, Vector<2>(0.0, -footing.surcharge), surcharge);
+  const NodeVectors<2>& loads = surcharge.forces();
   NodeVectors<2> down = m.no_loads();
   const double unit = std::max(footing.cohesion, footing.surcharge);
   for (const int i : m.held) {

@@ -35,9 +35,9 @@ struct InertialModel : PlaneModel {
   [[nodiscard]] NodeVectors<2> loads() const {
     std::vector<Vector<2>> force;
     for (const double m : mass) force.emplace_back(m * gravity);
-    NodeVectors<2> result = no_loads();
+    NodalLoads<2> result(grid);
     add_point_forces(grid, points, force, result);
-    return result;
+    return result.forces();
   }
   /// Sets the friction to that at the rate of the last step (Jop, Forterre and Pouliquen, Nature
   /// 441 (2006) 727): mu_s + (mu_2 - mu_s)/(1 + I_0/I) with I = rate d/sqrt(p/rho), I_0 = 0.279.

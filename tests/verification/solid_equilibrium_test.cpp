@@ -211,9 +211,9 @@ TEST(Oedometer, IsExactWhileTheMeshEndsWithTheSoil) {
   for (const MeshKind kind : {MeshKind::regular, MeshKind::crossed, MeshKind::irregular}) {
     for (const int points : {1, 3, 4, 12}) {
       OedometerModel m(kind, 4, points);
-      NodeVectors<2> loads = m.no_loads();
+      NodalLoads<2> loads(m.grid);
       m.surface.add_traction(m.grid, m.sorted, Vector<2>(0.0, -5e5), loads);
-      const NewtonSolution<2> solution = m.step(loads);
+      const NewtonSolution<2> solution = m.step(loads.forces());
       ASSERT_TRUE(solution.converged);
       for (int p = 0; p < m.points.size(); ++p) {
         const double stretch = m.points.volume[p] / m.points.reference_volume[p];
@@ -244,9 +244,9 @@ TEST(Oedometer, KeepsItsHeightWhileTheSurfaceSinksThroughElements) {
         OedometerModel m(kind, rows, 4);
         const double volume = m.soil_volume();
         for (int step = 1; step <= steps; ++step) {
-          NodeVectors<2> loads = m.no_loads();
+          NodalLoads<2> loads(m.grid);
           m.surface.add_traction(m.grid, m.sorted, Vector<2>(0.0, -5e5 * step / steps), loads);
-          ASSERT_TRUE(m.step(loads).converged);
+          ASSERT_TRUE(m.step(loads.forces()).converged);
         }
         const double error = m.soil_volume() / volume / oedometer_stretch() - 1.0;
         std::cout << name_of(kind) << ", " << rows << " rows, " << steps << " steps: " << error
@@ -266,9 +266,9 @@ TEST(Oedometer, IsExactInThreeDimensions) {
     m.support(side, Support::normal);
   }
   m.surface = LoadedSurface<3>(m.grid, m.sorted, m.faces_of("top"));
-  NodeVectors<3> loads = m.no_loads();
+  NodalLoads<3> loads(m.grid);
   m.surface.add_pressure(m.grid, m.sorted, 5e5, loads);
-  ASSERT_TRUE(m.step(loads).converged);
+  ASSERT_TRUE(m.step(loads.forces()).converged);
   for (int p = 0; p < m.points.size(); ++p) {
     EXPECT_NEAR(m.points.volume[p] / m.points.reference_volume[p], oedometer_stretch(), 1e-8);
     EXPECT_NEAR(m.points.position[p][2], oedometer_stretch() * m.start[p][2], 1e-8);
@@ -417,9 +417,9 @@ TEST(Newton, TakesPartOfAStepThatWouldTurnElementsInsideOut) {
   // The load is six times that which halves the column: the first step of Newton's method alone
   // would end far below the bottom.
   OedometerModel m(MeshKind::regular, 4, 3);
-  NodeVectors<2> loads = m.no_loads();
+  NodalLoads<2> loads(m.grid);
   m.surface.add_traction(m.grid, m.sorted, Vector<2>(0.0, -3e6), loads);
-  const NewtonSolution<2> solution = m.step(loads);
+  const NewtonSolution<2> solution = m.step(loads.forces());
   ASSERT_TRUE(solution.converged);
   for (int p = 0; p < m.points.size(); ++p) EXPECT_NEAR(m.stress(p)(1, 1), -3e6, 1e-3);
 }

@@ -28,7 +28,7 @@ SafetyFactor strip_factor(int cells) {
   for (const int f : m.faces_of("top")) {
     if (m.grid.face_centre(f)[0] < 1.0) strip.push_back(f);
   }
-  NodeVectors<2> loads = m.no_loads();
+  NodalLoads<2> loads(m.grid);
   LoadedSurface<2>(m.grid, m.sorted, strip)
       .add_traction(m.grid, m.sorted, Vector<2>(0.0, -15e3), loads);
   const Supports<2> supports(m.grid, m.face_support);

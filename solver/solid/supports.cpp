@@ -1,4 +1,4 @@
-#include "equilibrium/supports.hpp"
+#include "solid/supports.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,8 @@ Vector<Dim> direction_across(const Eigen::Matrix<double, Dim, Dim>& directions, 
 
 template <int Dim>
 Supports<Dim>::Supports(const Grid<Dim>& grid, const std::vector<Support>& face_support)
-    : free_count_(grid.mesh.node_count(), Dim),
+    : face_support_(face_support),
+      free_count_(grid.mesh.node_count(), Dim),
       directions_(grid.mesh.node_count(), Eigen::Matrix<double, Dim, Dim>::Identity()) {
   std::vector<std::vector<Vector<Dim>>> normals(grid.mesh.node_count());
   for (int f = 0; f < grid.face_count(); ++f) {
@@ -47,24 +48,52 @@ Supports<Dim>::Supports(const Grid<Dim>& grid, const std::vector<Support>& face_
       add_normal<Dim>(normals[i], grid.face_normal[f]);
     }
   }
-  for (int i = 0; i < grid.mesh.node_count(); ++i) {
-    if (normals[i].empty() || free_count_[i] == 0) continue;
-    auto& directions = directions_[i];
-    int held = 0;  // these are the last columns
-    for (const Vector<Dim>& normal : normals[i]) {
-      if (held == Dim) break;
-      const Vector<Dim> next = direction_across<Dim>(directions, Dim - held, held, normal);
-      if (next.isZero(0.0)) continue;
-      directions.col(Dim - ++held) = next;
+  for (int i = 0; i < grid.mesh.node_count(); ++i) hold_along(i, normals[i]);
+}
+
+template <int Dim>
+Supports<Dim> Supports<Dim>::with_edges(const Grid<Dim>& grid,
+                                        const QuadraticShapes<Dim>& shapes) const {
+  Supports result = *this;
+  result.free_count_.resize(shapes.size(), Dim);
+  result.directions_.resize(shapes.size(), Eigen::Matrix<double, Dim, Dim>::Identity());
+  std::vector<std::vector<Vector<Dim>>> normals(shapes.size());
+  for (int f = 0; f < grid.face_count(); ++f) {
+    if (face_support_[f] == Support::none) continue;
+    for (int a = 0; a < Dim; ++a) {
+      for (int b = a + 1; b < Dim; ++b) {
+        const int i = shapes.edge_between(grid.face_nodes[f][a], grid.face_nodes[f][b]);
+        if (face_support_[f] == Support::both) result.hold(i);
+        add_normal<Dim>(normals[i], grid.face_normal[f]);
+      }
     }
-    free_count_[i] = Dim - held;
-    // Free directions: axes, made normal to held directions and to free ones found before.
-    for (int axis = 0, found = 0; axis < Dim && found < Dim - held; ++axis) {
-      Vector<Dim> next =
-          direction_across<Dim>(directions, Dim - held, held, Vector<Dim>::Unit(axis));
-      if (!next.isZero(0.0)) next = direction_across<Dim>(directions, 0, found, next);
-      if (!next.isZero(0.0)) directions.col(found++) = next;
-    }
+  }
+  for (int i = grid.mesh.node_count(); i < shapes.size(); ++i) result.hold_along(i, normals[i]);
+  for (std::size_t e = 0; e < rigid_.size(); ++e) {
+    if (rigid_[e] == 0) continue;
+    for (const int i : shapes.of_element(static_cast<int>(e))) result.hold(i);
+  }
+  return result;
+}
+
+/// Holds a node or an edge along these normals, if it is not held altogether.
+template <int Dim>
+void Supports<Dim>::hold_along(int number, const std::vector<Vector<Dim>>& normals) {
+  if (normals.empty() || free_count_[number] == 0) return;
+  auto& directions = directions_[number];
+  int held = 0;  // these are the last columns
+  for (const Vector<Dim>& normal : normals) {
+    if (held == Dim) break;
+    const Vector<Dim> next = direction_across<Dim>(directions, Dim - held, held, normal);
+    if (next.isZero(0.0)) continue;
+    directions.col(Dim - ++held) = next;
+  }
+  free_count_[number] = Dim - held;
+  // Free directions: axes, made normal to held directions and to free ones found before.
+  for (int axis = 0, found = 0; axis < Dim && found < Dim - held; ++axis) {
+    Vector<Dim> next = direction_across<Dim>(directions, Dim - held, held, Vector<Dim>::Unit(axis));
+    if (!next.isZero(0.0)) next = direction_across<Dim>(directions, 0, found, next);
+    if (!next.isZero(0.0)) directions.col(found++) = next;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "grid/grid.hpp"
+#include "solid/quadratic_shapes.hpp"
 
 namespace suffuse {
 
@@ -25,12 +25,16 @@ double norm(const NodeVectors<Dim>& vectors) {
 /// How a face holds its nodes.
 enum class Support : char { none, normal, both };
 
-/// Directions in which each node is held.
+/// Directions in which each node is held, and each edge where displacements are quadratic.
 template <int Dim>
 class Supports {
  public:
   /// \param face_support  per face of the grid
   Supports(const Grid<Dim>& grid, const std::vector<Support>& face_support);
+
+  /// These supports, and those of the edges on the same faces.
+  [[nodiscard]] Supports with_edges(const Grid<Dim>& grid,
+                                    const QuadraticShapes<Dim>& shapes) const;
 
   /// Holds a node in all directions.
   void hold(int node) { free_count_[node] = 0; }
@@ -48,6 +52,9 @@ class Supports {
   }
 
  private:
+  void hold_along(int number, const std::vector<Vector<Dim>>& normals);
+
+  std::vector<Support> face_support_;
   std::vector<int> free_count_;
   std::vector<Eigen::Matrix<double, Dim, Dim>> directions_;
   std::vector<char> rigid_;

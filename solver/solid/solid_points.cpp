@@ -1,4 +1,4 @@
-#include "equilibrium/solid_points.hpp"
+#include "solid/solid_points.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "equilibrium/solid_points.hpp"
+#include "solid/solid_points.hpp"
 
 namespace suffuse {
 

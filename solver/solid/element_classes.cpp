@@ -1,4 +1,4 @@
-#include "equilibrium/element_classes.hpp"
+#include "solid/element_classes.hpp"
 
 #include <algorithm>
 #include <cmath>
