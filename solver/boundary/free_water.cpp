@@ -25,7 +25,7 @@ void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
     const Vector<Dim> weight = liquid_mass[e] * volume / (Dim + 1) * g;
     const auto& nodes = grid.mesh.elements[e];
     loads.add(
-        nodes, [&](std::size_t) { return weight; }, EdgeShare<Dim>::volume, of_soil);
+        nodes, [&](std::size_t) { return Vector<Dim>(weight); }, EdgeShare<Dim>::volume, of_soil);
     if (!sorted.is_empty(e)) continue;
     const auto of_pressure = [&](std::size_t a) {
       return Vector<Dim>(pressure[e] * grid.volume[e] * grid.shape_gradient[e][a]);

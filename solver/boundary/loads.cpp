@@ -54,7 +54,8 @@ void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const Vector<Dim> of_node = mass.liquid[e] * soil_volume[e] / (Dim + 1) * g;
     loads.add(
-        grid.mesh.elements[e], [&](std::size_t) { return of_node; }, EdgeShare<Dim>::volume, all);
+        grid.mesh.elements[e], [&](std::size_t) { return Vector<Dim>(of_node); },
+        EdgeShare<Dim>::volume, all);
   }
 }
 

@@ -21,6 +21,13 @@
 namespace suffuse::test {
 namespace {
 
+/// Processes that take longer hang. Sanitizers make a run up to a hundred times slower.
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::chrono::minutes longest_run{60};
+#else
+constexpr std::chrono::minutes longest_run{2};
+#endif
+
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
@@ -163,7 +170,7 @@ void Process::signal(int number) const {
 }
 
 Outcome Process::wait() {
-  const auto end = Clock::now() + std::chrono::minutes(2);
+  const auto end = Clock::now() + longest_run;
   while (running()) {
     if (Clock::now() > end) ::kill(id_, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

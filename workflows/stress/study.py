@@ -81,7 +81,8 @@ def refusals(rows):
             message = row["message"]
             for start in BEFORE:
                 message = re.sub(start, "", message)
-            message = message.replace(";", ",")
+            # The first sentence, with numbers that are not padded.
+            message = re.sub(r"\s+", " ", message.split(" / ")[0]).replace("( ", "(").replace(";", ",")
             kind = re.sub(r"-?[0-9][-+0-9.e]*", "#", message)
             times[kind] += 1
             example.setdefault(kind, [row["sweep"], message.replace("|", "\\|")])
