@@ -186,9 +186,9 @@ void add_strength_reduction(CLI::App& app, Arguments& arguments) {
   app.add_flag_callback(
          "--quadratic",
          [&arguments] { arguments.strength.displacements = suffuse::Displacements::quadratic; },
-         "Find it with quadratic displacements: nearer to the limit on coarse meshes, some ten "
-         "times "
-         "slower on the same mesh")
+         "Find it with quadratic displacements: nearer to the limit on coarse meshes, and slower, "
+         "up "
+         "to some ten times on the same mesh")
       ->needs(mode);
   app.add_option("--mechanism", arguments.strength.mechanism,
                  "Write how the soil fails, on the mesh, as a file for ParaView")

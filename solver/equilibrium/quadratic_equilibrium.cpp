@@ -44,8 +44,8 @@ std::vector<char> in_use(const QuadraticShapes<Dim>& shapes, const std::vector<i
   return used;
 }
 
-/// Elements with points in the region of an element that have a node of its neighbours, its own
-/// included.
+/// Neighbours of an element across its faces, and their neighbours, if they have points and are in
+/// its region.
 template <int Dim>
 std::set<int> elements_around(const SolidBody<Dim>& body, int e) {
   std::set<int> found{e};

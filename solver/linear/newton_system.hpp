@@ -27,10 +27,10 @@ class NewtonSystem {
   /// Sets x to the solution with the factored matrix itself.
   void solve_nearly(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) { factor_->solve(rhs, x); }
 
-  /// Sets x to the solution of matrix x = rhs. Throws
-  /// NumericalError if there is none, or if iterations with an inexact factor do not find it: such
-  /// matrices are too large to be solved directly. \param accuracy  of the residual, relative to
-  /// the right-hand side
+  /// Sets x to the solution of matrix x = rhs. Throws NumericalError if there is none, or if
+  /// iterations with an inexact factor do not find it: such matrices are too large to be solved
+  /// directly.
+  /// \param accuracy  of the residual, relative to the right-hand side
   void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
              Eigen::VectorXd& x, double accuracy = 1e-9);
 
