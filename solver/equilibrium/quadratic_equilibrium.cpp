@@ -145,11 +145,12 @@ auto QuadraticEquilibrium<Dim>::gradients_at(int e, int q) const -> Gradients {
 }
 
 template <int Dim>
-auto QuadraticEquilibrium<Dim>::displacement_gradient(int e, const Gradients& shapes) const
+auto QuadraticEquilibrium<Dim>::displacement_gradient(int e, const Gradients& shapes,
+                                                      const NodeVectors<Dim>& displacement) const
     -> Gradient {
   Gradient result = Gradient::Zero();
   for (int k = 0; k < count; ++k) {
-    result += displacement_[shapes_.of_element(e)[k]] * shapes.col(k).transpose();
+    result += displacement[shapes_.of_element(e)[k]] * shapes.col(k).transpose();
   }
   return result;
 }
@@ -158,11 +159,8 @@ template <int Dim>
 bool QuadraticEquilibrium<Dim>::is_possible(const NodeVectors<Dim>& displacement) const {
   for (const int e : elements_) {
     for (int q = 0; q < points; ++q) {
-      const Gradients shapes = gradients_at(e, q);
-      Gradient f = Gradient::Identity();
-      for (int k = 0; k < count; ++k) {
-        f += displacement[shapes_.of_element(e)[k]] * shapes.col(k).transpose();
-      }
+      const Gradient f =
+          Gradient::Identity() + displacement_gradient(e, gradients_at(e, q), displacement);
       if (!(f.determinant() > Equilibrium<Dim>::min_ratio)) return false;
     }
   }
@@ -191,7 +189,7 @@ void QuadraticEquilibrium<Dim>::respond(int e) {
   for (int q = 0; q < points; ++q) {
     QuadraturePoint& at = quadrature_[e][q];
     const Gradients shapes = gradients_at(e, q);
-    const Gradient moved = displacement_gradient(e, shapes);
+    const Gradient moved = displacement_gradient(e, shapes, displacement_);
     const Gradient f = Gradient::Identity() + moved;
     const auto& [law, parameters] = body_.skeleton[at.solid_point];
     const Eigen::Matrix3d stress =

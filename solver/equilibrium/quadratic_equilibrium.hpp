@@ -59,7 +59,8 @@ class QuadraticEquilibrium final : public ForceBalance<Dim> {
   };
 
   [[nodiscard]] Gradients gradients_at(int element, int point) const;
-  [[nodiscard]] Gradient displacement_gradient(int element, const Gradients& shapes) const;
+  [[nodiscard]] Gradient displacement_gradient(int element, const Gradients& shapes,
+                                               const NodeVectors<Dim>& displacement) const;
   /// Calls a function with each element that has points, on several threads.
   void for_each_element(const auto& call) const;
   void respond(int element);

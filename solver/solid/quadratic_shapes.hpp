@@ -10,11 +10,11 @@
 
 namespace suffuse {
 
-/// Hierarchical quadratic functions on triangles and tetrahedra: N_a of each node, which are those
-/// of linear displacements, and 4 N_a N_b of each edge (Zienkiewicz and Taylor, The Finite Element
-/// Method). The value at a node is the displacement there; that at an edge is the displacement of
-/// its midpoint from the mean of its two nodes. Nodes are numbered as in the mesh, edges after
-/// them.
+/// A node has the linear function N_a, an edge between the nodes a and b has 4 N_a N_b
+/// (hierarchical functions: Zienkiewicz and Taylor, The Finite Element Method, 5th ed. (2000), vol.
+/// 1, ch. 8). The value at a node is the displacement there. The value at an edge is the
+/// displacement of its midpoint minus the mean of those of its two nodes. Nodes have the numbers of
+/// the mesh; edges are numbered after them.
 template <int Dim>
 class QuadraticShapes {
  public:
