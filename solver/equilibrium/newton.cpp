@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/errors.hpp"
+
 namespace suffuse {
 namespace {
 
@@ -30,6 +32,7 @@ NewtonSolution<Dim> EquilibriumSolver<Dim>::solve(const NodeVectors<Dim>& loads,
                                                   const NewtonLimits& limits) {
   NewtonSolution<Dim> result;
   result.displacement = std::move(start);
+  kept_->system.iterate_again();
   equilibrium_.displace(result.displacement, !is_elastic());
   iterate(loads, limits, result);
   if (!result.converged) result.worst_node = unknowns().longest(unbalanced(loads));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/errors.hpp"
+
 namespace suffuse {
 namespace {
 
@@ -37,7 +39,6 @@ PseudoTime<Dim>::PseudoTime(ForceBalance<Dim>& equilibrium, const NodeVectors<Di
     : equilibrium_(equilibrium), loads_(loads) {
   equilibrium_.assemble_elastic(elastic_);
   system_.factorise(elastic_);
-  system_.go_on_directly();
 }
 
 template <int Dim>

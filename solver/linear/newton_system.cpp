@@ -1,7 +1,7 @@
 #include "linear/newton_system.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseLU>
+#include <algorithm>
 #include <string>
 
 #include "common/errors.hpp"
@@ -11,6 +11,17 @@ namespace {
 
 constexpr int max_iterations = 60;
 constexpr double tangent_accuracy = 1e-4;
+/// One iteration of BiCGSTAB in solutions with the symmetric factor: two, and two products with the
+/// matrix.
+constexpr double iteration_effort = 3.0;
+constexpr double direct_accuracy = 1e-9;
+/// Corrections of a direct solution.
+constexpr int max_corrections = 3;
+
+[[noreturn]] void refuse_unsolved() {
+  throw NumericalError("the pressures were not found in " + std::to_string(max_iterations) +
+                       " iterations");
+}
 
 /// The factor with the interface of Eigen's preconditioners.
 class FactorPreconditioner {
@@ -80,7 +91,8 @@ void NewtonSystem::factorise(const Eigen::SparseMatrix<double>& nearly) {
 
 template <class Matrix, class Preconditioner>
 bool NewtonSystem::iterate(const Matrix& matrix, const Preconditioner& preconditioner,
-                           const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy) {
+                           const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy,
+                           int max_iterations) {
   ++counts_.solves;
   Eigen::BiCGSTAB<Matrix, Preconditioner> iterations;
   iterations.preconditioner() = preconditioner;
@@ -92,39 +104,53 @@ bool NewtonSystem::iterate(const Matrix& matrix, const Preconditioner& precondit
   return iterations.info() == Eigen::Success && x.allFinite();
 }
 
-void NewtonSystem::refuse_unsolved() {
-  throw NumericalError("the pressures were not found in " + std::to_string(max_iterations) +
-                       " iterations");
+void NewtonSystem::solve_directly(const Eigen::SparseMatrix<double>& matrix,
+                                  const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy) {
+  ++counts_.solves;
+  ++counts_.factorisations;
+  direct_.factorise(matrix);
+  direct_.solve(rhs, x);
+  const double allowed = accuracy * rhs.norm();
+  Eigen::VectorXd correction;
+  for (int k = 0;; ++k) {
+    const Eigen::VectorXd residual = rhs - matrix * x;
+    if (residual.norm() <= allowed) return;
+    if (k == max_corrections) throw NumericalError("the system is nearly singular");
+    direct_.solve(residual, correction);
+    x += correction;
+  }
+}
+
+/// The iterations that take no longer than a direct solution: a few in two dimensions.
+int NewtonSystem::most_iterations(const Eigen::SparseMatrix<double>& matrix) {
+  if (!factor_->is_exact()) return max_iterations;
+  direct_.analyse(matrix);
+  return static_cast<int>(
+      std::clamp(direct_.effort() / iteration_effort, 1.0, 1.0 * max_iterations));
 }
 
 void NewtonSystem::solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
                          Eigen::VectorXd& x, double accuracy) {
-  if (!goes_on_directly_ || !iterations_failed_) {
+  if (!iterations_failed_) {
     FactorPreconditioner preconditioner;
     preconditioner.factor = factor_.get();
-    if (iterate(matrix, preconditioner, rhs, x, accuracy)) return;
+    if (iterate(matrix, preconditioner, rhs, x, accuracy, most_iterations(matrix))) return;
     if (!factor_->is_exact()) refuse_unsolved();
   }
-  if (!direct_) {
-    direct_ = std::make_unique<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
-    direct_->analyzePattern(matrix);
-  }
-  direct_->factorize(matrix);
-  if (direct_->info() == Eigen::Success) x = direct_->solve(rhs);
-  if (direct_->info() != Eigen::Success || !x.allFinite()) {
-    throw NumericalError("the pressures could not be solved for: the system is singular");
-  }
   iterations_failed_ = true;
+  solve_directly(matrix, rhs, x, accuracy);
 }
 
-void NewtonSystem::solve_tangent(const Eigen::SparseMatrix<double>& matrix,
+void NewtonSystem::solve_tangent(const Eigen::SparseMatrix<double>& nearly,
+                                 const Eigen::SparseMatrix<double>& matrix,
                                  const Eigen::VectorXd& rhs, Eigen::VectorXd& x) {
-  if (factor_->is_exact()) return solve(matrix, rhs, x);
+  if (factor_->is_exact()) return solve_directly(matrix, rhs, x, direct_accuracy);
+  factorise(nearly);
   const Rows rows = matrix;
   TwoStagePreconditioner preconditioner;
   preconditioner.factor = factor_.get();
   preconditioner.rows = &rows;
-  if (!iterate(matrix, preconditioner, rhs, x, tangent_accuracy)) refuse_unsolved();
+  if (!iterate(matrix, preconditioner, rhs, x, tangent_accuracy, max_iterations)) refuse_unsolved();
 }
 
 }  // namespace suffuse

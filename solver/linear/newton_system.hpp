@@ -2,15 +2,15 @@
 
 /// Solves the systems of Newton's method, whose matrices are close to a symmetric positive definite
 /// one, by BiCGSTAB (van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631) with the factor of
-/// the symmetric one, or directly if that takes too long.
+/// the symmetric one, or directly where that takes less time.
 
 #include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
 #include <memory>
 #include <utility>
 
 #include "linear/cholesky_factor.hpp"
 #include "linear/lagged_preconditioner.hpp"
+#include "linear/lu_factor.hpp"
 
 namespace suffuse {
 
@@ -27,21 +27,21 @@ class NewtonSystem {
   /// Sets x to the solution with the factored matrix itself.
   void solve_nearly(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) { factor_->solve(rhs, x); }
 
-  /// Sets x to the solution of matrix x = rhs. Throws NumericalError if there is none, or if
+  /// Sets x to the solution of matrix x = rhs, by iterations with the factor of the symmetric
+  /// matrix; directly if they fail, and from then on. Throws NumericalError if there is none, or if
   /// iterations with an inexact factor do not find it: such matrices are too large to be solved
   /// directly.
   /// \param accuracy  of the residual, relative to the right-hand side
   void solve(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
              Eigen::VectorXd& x, double accuracy = 1e-9);
+  /// Lets `solve` iterate again.
+  void iterate_again() { iterations_failed_ = false; }
 
-  /// Lets `solve` leave out iterations once they have failed: tangents of soil that yields stay far
-  /// from the elastic stiffness.
-  void go_on_directly() { goes_on_directly_ = true; }
-
-  /// Solves for a tangent that is far from the symmetric matrix, where the next iteration of the
-  /// caller corrects the error: with an inexact factor the residual may be 1e-4 of the right-hand
-  /// side.
-  void solve_tangent(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+  /// Solves for a tangent that may be far from the symmetric matrix `nearly`, where the next
+  /// iteration of the caller corrects the error: directly if the factor is exact; else the residual
+  /// may be 1e-4 of the right-hand side.
+  void solve_tangent(const Eigen::SparseMatrix<double>& nearly,
+                     const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
                      Eigen::VectorXd& x);
 
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
@@ -65,18 +65,17 @@ class NewtonSystem {
   }
 
  private:
+  [[nodiscard]] int most_iterations(const Eigen::SparseMatrix<double>& matrix);
+  void solve_directly(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
+                      Eigen::VectorXd& x, double accuracy);
   /// Iterates with this preconditioner. Returns whether the solution was found.
   template <class Matrix, class Preconditioner>
   bool iterate(const Matrix& matrix, const Preconditioner& preconditioner,
-               const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy);
-  [[noreturn]] static void refuse_unsolved();
+               const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy, int max_iterations);
 
   std::unique_ptr<Factor> factor_;
   Eigen::VectorXd factored_;  ///< values of the matrix that is factored
-  /// Has the order of the unknowns, which all matrices of one pattern share; null until it is
-  /// needed.
-  std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> direct_;
-  bool goes_on_directly_ = false;
+  LuFactor direct_;
   bool iterations_failed_ = false;
   SolveCounts counts_;
 };

@@ -65,10 +65,10 @@ class PressureSystem {
                      : shared_->solve({nearly, load_, guess_, tolerance_});
       return;
     }
-    newton_.factorise(nearly);
     if (tangent) {
-      newton_.solve_tangent(*tangent, load_, step);
+      newton_.solve_tangent(nearly, *tangent, load_, step);
     } else {
+      newton_.factorise(nearly);
       newton_.solve(nearly, load_, step);
     }
   }
