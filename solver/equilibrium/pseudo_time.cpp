@@ -185,6 +185,8 @@ void PseudoTime<Dim>::judge_motion(const SettlingLimits& limits) {
     soil_.end = Settling::rests;
   } else if (late >= constant_speed * early) {
     soil_.end = Settling::runs_away;
+  } else if (late <= limits.slow) {
+    soil_.end = Settling::rests;
   }
 }
 

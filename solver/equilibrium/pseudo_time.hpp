@@ -24,6 +24,8 @@ struct SettlingLimits {
   /// Displacement in the second half of the iterations, m, up to which soil counts as at rest when
   /// they end; soil that moved farther and did not slow down runs away. 0: it is not judged so.
   double still = 0.0;
+  /// Speed, m per unit of pseudo-time, up to which soil that slows down then counts as at rest.
+  double slow = 0.0;
   /// Per node: whether hardly any soil holds it, so that its displacement does not count; empty:
   /// all nodes count.
   std::vector<char> loose = {};

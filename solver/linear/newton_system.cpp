@@ -2,6 +2,7 @@
 
 #include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "common/errors.hpp"
@@ -17,10 +18,18 @@ constexpr double iteration_effort = 3.0;
 constexpr double direct_accuracy = 1e-9;
 /// Corrections of a direct solution.
 constexpr int max_corrections = 3;
+/// Residual of a direct solution that is accepted, in units of its round-off.
+constexpr double round_off_units = 16.0;
 
 [[noreturn]] void refuse_unsolved() {
   throw NumericalError("the pressures were not found in " + std::to_string(max_iterations) +
                        " iterations");
+}
+
+/// Round-off of computing a residual: where coefficients differ by many orders of magnitude it
+/// exceeds any share of the right-hand side.
+double round_off(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& x) {
+  return std::numeric_limits<double>::epsilon() * (matrix.cwiseAbs() * x.cwiseAbs()).norm();
 }
 
 /// The factor with the interface of Eigen's preconditioners.
@@ -114,7 +123,8 @@ void NewtonSystem::solve_directly(const Eigen::SparseMatrix<double>& matrix,
   Eigen::VectorXd correction;
   for (int k = 0;; ++k) {
     const Eigen::VectorXd residual = rhs - matrix * x;
-    if (residual.norm() <= allowed) return;
+    const double left = residual.norm();
+    if (left <= allowed || left <= round_off_units * round_off(matrix, x)) return;
     if (k == max_corrections) throw NumericalError("the system is nearly singular");
     direct_.solve(residual, correction);
     x += correction;

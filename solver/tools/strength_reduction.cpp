@@ -22,6 +22,9 @@ const SoftStiffness soft_in_trials{.gradient = 1e-6};
 /// Displacement that counts as none when the iterations of a trial end, over that of the elastic
 /// body.
 constexpr double still_share = 0.1;
+/// Speed of soil that slows down, over the elastic displacement in a unit of pseudo-time, that
+/// counts as none: forces of this share of the loads are out of balance then.
+constexpr double slow_share = 1e-3;
 /// Elastic displacement, over its mean weighted by loads, beyond which hardly any soil holds a
 /// node. With moved soil this happens where one point has just entered an empty element.
 constexpr double loose_displacement = 100.0;
@@ -108,6 +111,7 @@ class StrengthReduction {
                  .settle(held_, {.tolerance = limits_.newton.tolerance,
                                  .far = far,
                                  .still = still_share * elastic_max_,
+                                 .slow = slow_share * elastic_max_,
                                  .loose = loose_,
                                  .max_iterations = limits_.settling_iterations});
       soil.iterations += solution.iterations();

@@ -5,8 +5,8 @@ Writes table.csv, the sweep's table, levels.csv, critical.csv, report.md and lev
 start, as far as the runs so far answer it, and adds the levels that it needs next. So a study that was stopped goes on, and one
 that is complete adds nothing. At the start of a steady level the slope is looked at apart, with the table slope.csv: runs with
 elastic soil give the flow, and the factor, which takes most of the time, is found only in the first round and where the slope
-begins. BOUNDARY, FROM, TO, SCAN, TOLERANCE_LEVEL, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2
-for wrong input; 1 if runs have no answer.
+begins. BOUNDARY, FROM, TO, SCAN, TOLERANCE_LEVEL, STEADY, SET, FACTOR, REGION, DEEPER and QUADRATIC come from the environment.
+Exit codes: 2 for wrong input; 1 if runs have no answer.
 """
 
 import dataclasses

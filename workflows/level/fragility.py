@@ -2,7 +2,8 @@
 """How probable is failure at a level? `make -C workflows fragility` calls this.
 
 Writes table.csv, the sweep's table: every draw at every level, fragility.csv, draws.csv, report.md and fragility.svg. LEVELS, SWEEP,
-BOUNDARY, STEADY, SET, FACTOR, REGION and DEEPER come from the environment. Exit codes: 2 for wrong input; 1 if runs have no answer.
+BOUNDARY, STEADY, SET, FACTOR, REGION, DEEPER and QUADRATIC come from the environment. Exit codes: 2 for wrong input; 1 if runs
+have no answer.
 """
 
 import os

@@ -193,11 +193,11 @@ def may_have_strength(soils, name, keys):
 
 
 def reduction_options(scene, keys, states):
-    """Options of the strength reduction, from REGION and DEEPER. `keys`: those of the scene that runs change. `states`: of
+    """Options of the strength reduction, from REGION, DEEPER and QUADRATIC. `keys`: those of the scene that runs change. `states`: of
     which states the factor is; "" for none. Throws InputError."""
     names = sorted(set(os.environ.get("REGION", "").split()))
-    depth = os.environ.get("DEEPER", "").strip()
-    for variable, text in (("REGION", " ".join(names)), ("DEEPER", depth)):
+    depth, quadratic = (os.environ.get(variable, "").strip() for variable in ("DEEPER", "QUADRATIC"))
+    for variable, text in (("REGION", " ".join(names)), ("DEEPER", depth), ("QUADRATIC", quadratic)):
         if text and states in ("", "checks"):
             wanted = "FACTOR=1, all or start" if not states else "FACTOR=start, last or all"
             raise wrong(variable, "", f"'{text}' {'with FACTOR=checks' if states else 'without FACTOR'}", f"{wanted} beside it")
@@ -217,13 +217,16 @@ def reduction_options(scene, keys, states):
         if "gravity" not in keys and not any(scene.get("gravity", [0.0])):
             raise wrong("DEEPER", "", f"'{depth}'", "a scene with gravity; this one has none")
         options += ["--deeper", f"{value:.10g}"]
-    return options
+    if quadratic not in ("", "0", "1"):
+        raise wrong("QUADRATIC", "", f"'{quadratic}'", "1 for quadratic displacements, or 0")
+    return options + (["--quadratic"] if quadratic == "1" else [])
 
 
 def said_of_options(options):
-    """What the options leave out, as a sentence; nothing without options."""
-    given = list(zip(options[::2], options[1::2]))
+    """What the options leave out, and how they find the rest, as a sentence; nothing without options."""
+    given = list(zip(options, options[1:] + [""]))
     names = [value for option, value in given if option == "--region"]
     said = [f"only {' and '.join(names)} can fail, other soil is elastic"] if names else []
     said += [f"bodies within {value} m of the surface are left out" for option, value in given if option == "--deeper"]
+    said += ["displacements are quadratic" for option in options if option == "--quadratic"]
     return ", and ".join(said)

@@ -7,8 +7,8 @@
 # a relative path is relative to the folder where make was called.
 $(runs_goals): export PROGRAMS    := $(BIN)
 $(runs_goals): export CALLED_FROM := $(PWD)
-$(foreach name,PYTHON TOLERANCE SCENE SWEEP NAME LAUNCH FACTOR REGION DEEPER OUTPUTS SIZES TOLERANCES MEASURED KEYS AGAINST OVER \
-  BOUNDARY FROM TO LEVELS SCAN TOLERANCE_LEVEL STEADY SET,$(eval $(runs_goals): export $(name) := $$($(name))))
+$(foreach name,PYTHON TOLERANCE SCENE SWEEP NAME LAUNCH FACTOR REGION DEEPER QUADRATIC OUTPUTS SIZES TOLERANCES MEASURED KEYS \
+  AGAINST OVER BOUNDARY FROM TO LEVELS SCAN TOLERANCE_LEVEL STEADY SET,$(eval $(runs_goals): export $(name) := $$($(name))))
 $(runs_goals): $(if $(build_step),$(mesher) $(solver) $(post))
 
 .PHONY: study

@@ -179,10 +179,10 @@ def conclude(folder, programs, states, with_figures):
 
 
 def make(scene, table, folder, states="", with_figures=False, with_reduction=True):
-    """Makes the sweep of a table. `states`: of which states the factor of safety is wanted (run.py); "" for none. REGION and DEEPER
-    count `with_reduction`. Returns 1 if a run did not end well. Cases without runs, of the states `case`, have no table."""
+    """Makes the sweep of a table. `states`: of which states the factor of safety is wanted (run.py); "" for none. REGION, DEEPER
+    and QUADRATIC count `with_reduction`. Returns 1 if a run did not end well. Cases without runs, of the states `case`, have no table."""
     programs, arguments = programs_of(), [states] if states else []
-    if with_reduction and (os.environ.get("REGION") or os.environ.get("DEEPER")):
+    if with_reduction and any(os.environ.get(variable) for variable in ("REGION", "DEEPER", "QUADRATIC")):
         arguments += reduction_options(read_scene(scene), read_runs(table)[0], states)
     prepare(scene, table, folder, programs, arguments)
     variables = {"PROGRAMS": str(programs), "STATES": " ".join(arguments), "RUN": str(here / "run.py")}

@@ -287,10 +287,10 @@ def check_others():
         expect("and nothing of none", "", said_of_others(stems[:1]))
 
 
-def reduction(region="", deeper="", keys=(), states="start", **scene):
-    os.environ["REGION"], os.environ["DEEPER"] = region, deeper
+def reduction(region="", deeper="", quadratic="", keys=(), states="start", **scene):
+    os.environ |= {"REGION": region, "DEEPER": deeper, "QUADRATIC": quadratic}
     found = answer(reduction_options, {"gravity": [0.0, -9.81], "soil": SOILS} | scene, list(keys), states)
-    os.environ["REGION"] = os.environ["DEEPER"] = ""
+    os.environ |= dict.fromkeys(("REGION", "DEEPER", "QUADRATIC"), "")
     return found
 
 
@@ -303,6 +303,11 @@ def check_reduction():
            " ".join(reduction("sand clay sand", "0.50")))
     expect("said as", "only clay and sand can fail, other soil is elastic, and bodies within 0.5 m of the surface are left out",
            said_of_options(reduction("sand clay", "0.5")))
+    expect("quadratic displacements", "--deeper 0.5 --quadratic", " ".join(reduction("", "0.5", "1")))
+    expect("not by 0", [], reduction("", "", "0"))
+    expect("said as", "displacements are quadratic", said_of_options(reduction("", "", "1")))
+    expect("another word", "QUADRATIC: got 'yes'; expected 1 for quadratic displacements, or 0", reduction("", "", "yes"))
+    expect("without a factor", "QUADRATIC: got '1' without FACTOR; expected FACTOR=1, all or start beside it", reduction("", "", "1", states=""))
     soils = "expected soils with a strength, with spaces between several: clay or sand"
     expect("no such soil", f"REGION: got 'sant'; {soils}; did you mean sand?", reduction("sant"))
     expect("soil that does not fail", f"REGION: got 'fill'; {soils}", reduction("fill"))

@@ -114,7 +114,7 @@ expect 'one that is missing is made again' "$(cut -d' ' -f1 <<< "$before") 1" \
 printf '%s\n' 'boundary[0].head' 1.8 > head.csv
 out="$work/o ut/sweep/head"
 factors=()
-for options in '' 'REGION=specimen' 'REGION=specimen DEEPER=0.3' ''; do
+for options in '' 'REGION=specimen' 'REGION=specimen DEEPER=0.3' 'QUADRATIC=1' ''; do
   before=$(statuses "$out" 2> /dev/null || true)
   IFS=' ' read -ra given <<< "$options"
   run_make sweep SCENE=lifted.toml SWEEP=head.csv FACTOR=start "${given[@]}"
@@ -122,9 +122,9 @@ for options in '' 'REGION=specimen' 'REGION=specimen DEEPER=0.3' ''; do
   expect "factors of '$options' are made again, and no run" "assessed$([ -n "$before" ] || echo ' status')" \
     "$(comm -13 <(echo "$before") <(statuses "$out") | sed 's/ .*//; s/.*[.]//' | xargs)"
 done
-expect 'the only soil is all soil, a skin that holds helps' 'same more same' \
-  "$(awk -v a="${factors[0]}" -v b="${factors[1]}" -v c="${factors[2]}" -v d="${factors[3]}" \
-    'BEGIN { print (a == b ? "same" : a " " b), (c > 1.05 * b ? "more" : c " " b), (d == a ? "same" : d) }')"
+expect 'the only soil is all soil, a skin that holds helps, quadratic displacements find another way' 'same more other same' \
+  "$(awk -v a="${factors[0]}" -v b="${factors[1]}" -v c="${factors[2]}" -v d="${factors[3]}" -v e="${factors[4]}" \
+    'BEGIN { print (a == b ? "same" : a " " b), (c > 1.05 * b ? "more" : c " " b), (d > 0 && d != a ? "other" : d), (e == a ? "same" : e) }')"
 run_make sweep SCENE=lifted.toml SWEEP=head.csv FACTOR=start REGION=soil NAME=refused
 expect 'no such soil' "2 REGION: got 'soil'; expected soils with a strength, with spaces between several: specimen none" \
   "$code $(grep ^REGION "$log") $(ls "$work/o ut/sweep/refused" 2> /dev/null || echo none)"

@@ -61,7 +61,8 @@ test-release: build-tests
 # Tests of parts of the mesher and the solver, and the verifications that tests/verification
 # selects. SANITIZED_TESTS=all also runs the other verifications, the tests of the post stage and
 # the suites with the longest runs of the solver, with all checks of the sanitizers
-# (SUFFUSE_SANITIZE_ALL of ../CMakeLists.txt).
+# (SUFFUSE_SANITIZE_ALL of ../CMakeLists.txt); not those of the label study, which repeat
+# verifications on finer meshes.
 sanitized_labels := quick sanitized
 optimised_suites := resume_test.Modes/ResumedVariant resume_test.InSpace/ResumedVariant resume_test.ResumedRun \
   $(addprefix resume_test.,Stage Modes/Stages FromMovedSoil FromEarlierOnce MeshAgain Construction) verification_of_parts_test.Formulations/ExtrudedScene
@@ -71,7 +72,7 @@ build-sanitize: provision
 	@$(call build_preset,$(sanitized_preset),$(if $(SANITIZED_TESTS),,--target suffuse-mesher suffuse-solver \
 	  $(addprefix tests_,$(sanitized_labels))))
 test-sanitize: build-sanitize
-	@$(call run_ctest,$(sanitized_preset),$(if $(SANITIZED_TESTS),,-L '$(subst $(space),|,$(sanitized_labels))' \
+	@$(call run_ctest,$(sanitized_preset),$(if $(SANITIZED_TESTS),-LE study,-L '$(subst $(space),|,$(sanitized_labels))' \
 	  -E '^($(subst $(space),|,$(optimised_suites)))[.]'))
 
 # $(call run_ctest,PRESET,OPTIONS): ctest counts suites; the number of tests in them is in
