@@ -41,7 +41,7 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
           step);
     };
     std::optional<Unsolved> why = find();
-    if (why && !flow_.is_shortest(step.flow)) {
+    if (why && !flow_.is_shortest(step.flow) && !failure_.is_stuck()) {
       flow_.reject(step.flow);
     } else if (why) {
       failure_.step_unsolved(step.flow.start, *why);

@@ -7,6 +7,10 @@ namespace {
 
 /// Shortest step in equilibrium, over the time in which soil falls through an element.
 constexpr double short_step = 1e-2;
+/// So many steps with inertia get nowhere if they take less than this share of that time together:
+/// soil that falls through the height of the model takes some 1e-2 of it in each.
+constexpr int stuck_steps = 500;
+constexpr double stuck_time = 1e-3;
 
 /// Places of the points in the order of their numbers, m.
 template <int Dim>
@@ -24,7 +28,9 @@ void Failure<Dim>::start_inertia(double time) {
   solid_.start_inertia();
   repeated_.fails(places_by_id(solid_), mean_size(grid_.mesh));
   time_ = time;
-  rested_ = 0.0;
+  rested_ = counted_time_ = 0.0;
+  counted_steps_ = 0;
+  is_stuck_ = false;
 }
 
 template <int Dim>
@@ -66,6 +72,11 @@ template <int Dim>
 void Failure<Dim>::finish_motion(double duration, const SoilKinetics& soil) {
   rested_ = soil.is_rest() ? rested_ + duration : 0.0;
   if (rested_ > soil.soil.time_of_fall()) solid_.end_inertia(repeated_.held_share());
+  counted_time_ += duration;
+  if (++counted_steps_ < stuck_steps) return;
+  is_stuck_ = counted_time_ < stuck_time * solid_.time_of_fall();
+  counted_time_ = 0.0;
+  counted_steps_ = 0;
 }
 
 template <int Dim>

@@ -49,8 +49,12 @@ class Failure {
   /// Call at the end of a step with inertia, of `duration`, s. Ends the inertia of soil that has
   /// been at rest for the time of a fall through its height.
   void finish_motion(double duration, const SoilKinetics& soil);
+  /// Whether steps with inertia have become so short that the motion gets nowhere.
+  [[nodiscard]] bool is_stuck() const { return has_inertia() && is_stuck_; }
 
-  void archive(auto& archive) { archive(repeated_, time_, rested_, long_steps_); }
+  void archive(auto& archive) {
+    archive(repeated_, time_, rested_, long_steps_, counted_steps_, counted_time_, is_stuck_);
+  }
 
  private:
   /// Whether the soil is in equilibrium and gets inertia when it loses it.
@@ -62,9 +66,12 @@ class Failure {
   MovingSkeleton<Dim>& solid_;
   bool follows_;
   RepeatedFailure<Dim> repeated_;
-  double time_ = 0.0;        ///< see `time`
-  double rested_ = 0.0;      ///< soil with inertia has been at rest for this time, s
-  bool long_steps_ = false;  ///< a long step has followed the last sudden change
+  double time_ = 0.0;          ///< see `time`
+  double rested_ = 0.0;        ///< soil with inertia has been at rest for this time, s
+  bool long_steps_ = false;    ///< a long step has followed the last sudden change
+  int counted_steps_ = 0;      ///< steps with inertia since they were last counted ...
+  double counted_time_ = 0.0;  ///< ... and their time, s
+  bool is_stuck_ = false;      ///< see `is_stuck`
 };
 
 }  // namespace suffuse

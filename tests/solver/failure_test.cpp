@@ -112,6 +112,24 @@ TEST(Failure, ShortStepsOrASlideStartInertiaAfterLongOnes) {
   EXPECT_FALSE(stopped.failure.has_inertia());
 }
 
+/// Steps with inertia that together take next to no time get nowhere, at any time and again.
+TEST(Failure, StepsThatStayShortGetNowhere) {
+  Soil soil(true);
+  const double fall = soil.solid.time_of_fall();
+  const auto steps = [&](double dt) {
+    for (int k = 0; k < 500; ++k) soil.failure.finish_motion(dt, moving(1e-3));
+    return soil.failure.is_stuck();
+  };
+  soil.failure.step_unsolved(0.0, no_equilibrium);
+  EXPECT_FALSE(steps(2.1e-6 * fall));
+  EXPECT_TRUE(steps(1.9e-6 * fall));
+  EXPECT_FALSE(steps(2.1e-6 * fall));
+  soil.failure.finish_motion(fall, moving(1e-3));
+  EXPECT_FALSE(steps(1e-9 * fall));
+  EXPECT_TRUE(steps(1e-9 * fall));
+  EXPECT_FALSE(Soil(true).failure.is_stuck());
+}
+
 /// Soil without motion has come to rest after sqrt(2 H/g), the time of a fall through its height.
 TEST(Failure, SoilThatHasRestedForAFallHasNoInertiaAnyMore) {
   const double fall = std::sqrt(2.0 * 2.0 / g);
