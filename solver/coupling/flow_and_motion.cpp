@@ -23,8 +23,10 @@ constexpr double beside_mobility = 1e-3;
 constexpr double least_suction_share = 1e-3;
 constexpr int max_coupling_iterations = 40;
 /// The iteration is given up when it has come no nearer, by a tenth, in so many iterations: a
-/// shorter step takes less time. Of those that end in agreement one in 300 would take longer.
+/// shorter step takes less time. Near to agreement Anderson's mixing may have much to learn before
+/// it comes nearer.
 constexpr int patience = 8;
+constexpr int patience_near_agreement = 16;
 constexpr double nearer = 0.9;
 /// Stiffness of confined water over the oedometer modulus of the soil.
 constexpr double undrained_stiffness = 300.0;
@@ -192,7 +194,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
     if (off < nearer * nearest) {
       nearest = off;
       nearest_at = iteration;
-    } else if (iteration >= nearest_at + patience) {
+    } else if (iteration >= nearest_at + (nearly_agrees ? patience_near_agreement : patience)) {
       break;
     }
     nearly_agrees = nearly_agrees || off <= near_agreement * allowed;
