@@ -302,7 +302,7 @@ TEST(PseudoTime, MovesSoilThatFailsAtAConstantSpeed) {
 }
 
 /// How 60 iterations end that neither balance the forces nor move the soil far enough.
-Settling end_by_motion(double factor, double still) {
+Settling end_by_motion(double factor, double still, double slow = 0.0) {
   SlopeTwoToOne m(8, mohr_coulomb_soil(20.0, 0.05 * unit_weight, 0.0));
   for (PointSkeleton& point : m.skeleton) {
     point.parameters = reduced_strength(point.parameters, factor);
@@ -312,7 +312,8 @@ Settling end_by_motion(double factor, double still) {
   Equilibrium<2> equilibrium(m.body(), supports, 1);
   const NodeVectors<2> loads = m.weight(unit_weight);
   PseudoTime<2> time(equilibrium, loads);
-  const SettlingLimits limits{.tolerance = 0.0, .far = 1.0, .still = still, .max_iterations = 60};
+  const SettlingLimits limits{
+      .tolerance = 0.0, .far = 1.0, .still = still, .slow = slow, .max_iterations = 60};
   return time.settle(m.no_loads(), limits).end;
 }
 
@@ -322,6 +323,8 @@ TEST(PseudoTime, DecidesByTheMotionWhenItsIterationsEnd) {
   EXPECT_EQ(end_by_motion(1.5, 1e-6), Settling::rests) << "it moves by 5e-9 m";
   EXPECT_EQ(end_by_motion(1.5, 0.0), Settling::undecided) << "no motion counts as rest";
   EXPECT_EQ(end_by_motion(1.3, tenth_of_elastic), Settling::undecided) << "its time is short";
+  EXPECT_EQ(end_by_motion(1.41, tenth_of_elastic), Settling::undecided) << "it slows down";
+  EXPECT_EQ(end_by_motion(1.41, tenth_of_elastic, 0.01 * tenth_of_elastic), Settling::rests);
 }
 
 /// A vertical cut of height 1 m; the soil behind it and below it has the same extent.
