@@ -84,6 +84,18 @@ TEST(LuFactor, RefusesWhatItCannotSolve) {
   EXPECT_THROW(LuFactor().factorise(singular.sparseView()), NumericalError);
 }
 
+/// The rows add up to 1e-6 of what couples the unknowns, so all are 1; round-off of the residual is
+/// 1e-5 of the right-hand side.
+TEST(NewtonSystem, TakesSolutionsUpToRoundOff) {
+  Matrix matrix = 1e4 * drifting(40, 0.0);
+  for (int i = 0; i < matrix.rows(); ++i) matrix.coeffRef(i, i) += 1e-6 - 1e4 * 0.01;
+  const Eigen::VectorXd rhs = Eigen::VectorXd::Constant(matrix.rows(), 1e-6);
+  Eigen::VectorXd x;
+  NewtonSystem().solve_tangent(matrix, matrix, rhs, x);
+  EXPECT_GT((matrix * x - rhs).norm(), 1e-9 * rhs.norm());
+  EXPECT_LE((x.array() - 1.0).abs().maxCoeff(), 1e-3);
+}
+
 /// Iterations find what is near the symmetric matrix; what is not costs them once.
 TEST(NewtonSystem, GoesOnDirectlyWhereIterationsFail) {
   const Matrix nearly = drifting(40, 0.0);
