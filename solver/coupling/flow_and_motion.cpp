@@ -90,13 +90,43 @@ Unsolved no_equilibrium(const std::string& where, int worst_node) {
   return {"the soil has found no equilibrium" + where, true, worst_node};
 }
 
-/// After the last iteration. `worst_node`: of the last motion, if it had no equilibrium.
-Unsolved not_found(int iterations, const std::optional<int>& worst_node,
-                   const std::string& worst_element) {
-  const std::string count = std::to_string(iterations) + " iterations";
-  if (worst_node) return no_equilibrium(" in " + count, *worst_node);
-  return {"flow and motion of the soil do not agree in " + count + ", least in " + worst_element};
-}
+/// How near the iterations of a step have come to agreement.
+struct Approach {
+  bool is_near = false;           ///< they have been near
+  double nearest = infinity;      ///< smallest difference of pressures, Pa
+  int nearest_at = 0;             ///< iteration that had it
+  int iteration = 0;              ///< the present one, from 1
+  int worst_element = 0;          ///< where pressures differ most
+  std::optional<int> worst_node;  ///< of the last motion, if it had no equilibrium
+
+  /// Begins an iteration, unless all have been made.
+  bool begins() {
+    if (iteration == max_coupling_iterations) return false;
+    ++iteration;
+    return true;
+  }
+  /// Whether this rise is a guess from the last step.
+  [[nodiscard]] bool guesses(const Eigen::VectorXd& rise) const {
+    return iteration == 1 && rise.squaredNorm() > 0.0;
+  }
+  /// Whether to go on after an iteration with this difference, Pa.
+  bool goes_on(double off, double allowed) {
+    if (off < nearer * nearest) {
+      nearest = off;
+      nearest_at = iteration;
+    }
+    is_near = is_near || off <= near_agreement * allowed;
+    return iteration < nearest_at + (is_near ? patience_near_agreement : patience);
+  }
+  /// After the last iteration.
+  template <int Dim>
+  [[nodiscard]] Unsolved not_found(const Grid<Dim>& grid) const {
+    const std::string count = std::to_string(iteration) + " iterations";
+    if (worst_node) return no_equilibrium(" in " + count, *worst_node);
+    return {"flow and motion of the soil do not agree in " + count + ", least in " +
+            element_text(grid, worst_element)};
+  }
+};
 
 Eigen::VectorXd rise_between(const std::vector<double>& before, const std::vector<double>& after) {
   using Map = Eigen::Map<const Eigen::VectorXd>;
@@ -149,31 +179,24 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
                       forcing.mean_storage),
       start.tolerance);
   Eigen::VectorXd beside = Eigen::VectorXd::Zero(rise.size());  // rise found beside the soil
-  std::optional<int> worst_node;  // of the last motion without an equilibrium
-  int worst_element = 0;
-  bool nearly_agrees = false;
-  double nearest = infinity;
-  int nearest_at = 0;
-  int iteration = 0;
-  while (iteration < max_coupling_iterations) {
-    ++iteration;
+  Approach approach;
+  while (approach.begins()) {
     ++step.iterations;
-    step.motion->reduction = forcing.reduction = nearly_agrees ? 0.0 : reduction;
+    step.motion->reduction = forcing.reduction = approach.is_near ? 0.0 : reduction;
     const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
     const std::vector<double> acting =
         pressure_on_solid(grid_, soils, risen(pressure, of_elements), at_start.porosity, air);
     const SolidMotion& motion = solid_.solve(*step.motion, acting);
     if (!motion.converged) {
-      worst_node = motion.worst_node;
-      const bool guessed = iteration == 1 && rise.squaredNorm() > 0.0;
+      approach.worst_node = motion.worst_node;
       std::optional<Eigen::VectorXd> other = Eigen::VectorXd::Zero(pressure.size());
-      if (!guessed) other = undrained_rise(*step.motion, acting, of_elements);
+      if (!approach.guesses(rise)) other = undrained_rise(*step.motion, acting, of_elements);
       if (!other) return no_equilibrium("", step.motion->motion.worst_node);
       rise = at_faces(*other, forcing.mean_storage);
       mixing = AndersonMixing(memory);
       continue;
     }
-    worst_node.reset();
+    approach.worst_node.reset();
     const std::vector<double> moved =
         !soils.air_moves() ? motion.face_volume : without_air(motion, air, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
@@ -183,24 +206,18 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
     const Eigen::VectorXd rose = at_soil(all, forcing.mean_storage);
     beside = all - rose;
     const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
-    const double off =
-        acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs().maxCoeff(&worst_element);
+    const Eigen::VectorXd differs = acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs();
+    const double off = differs.maxCoeff(&approach.worst_element);
     const double allowed = agreement.allowed(largest(acts.cwiseProduct(new_of_elements)));
-    if (nearly_agrees && off <= allowed) {
+    if (approach.is_near && off <= allowed) {
       step.rise = rise_of(rose, dt);
       step.flow.found = std::move(found);
       return std::nullopt;
     }
-    if (off < nearer * nearest) {
-      nearest = off;
-      nearest_at = iteration;
-    } else if (iteration >= nearest_at + (nearly_agrees ? patience_near_agreement : patience)) {
-      break;
-    }
-    nearly_agrees = nearly_agrees || off <= near_agreement * allowed;
+    if (!approach.goes_on(off, allowed)) break;
     rise = mixing.next(rise, rose);
   }
-  return not_found(iteration, worst_node, element_text(grid_, worst_element));
+  return approach.not_found(grid_);
 }
 
 template <int Dim>
