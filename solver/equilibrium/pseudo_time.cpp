@@ -181,12 +181,11 @@ void PseudoTime<Dim>::judge_motion(const SettlingLimits& limits) {
   if (limits.still == 0.0 || std::min(third_quarter, last_quarter) < long_enough) return;
   const double early = moved(first, middle) / third_quarter;
   const double late = moved(middle, last) / last_quarter;
-  if (moved(first, last) <= limits.still) {
+  const bool slows_down = late < constant_speed * early;
+  if (moved(first, last) <= limits.still || (slows_down && late <= limits.slow)) {
     soil_.end = Settling::rests;
-  } else if (late >= constant_speed * early) {
+  } else if (!slows_down) {
     soil_.end = Settling::runs_away;
-  } else if (late <= limits.slow) {
-    soil_.end = Settling::rests;
   }
 }
 

@@ -101,12 +101,12 @@ void NewtonSystem::factorise(const Eigen::SparseMatrix<double>& nearly) {
 template <class Matrix, class Preconditioner>
 bool NewtonSystem::iterate(const Matrix& matrix, const Preconditioner& preconditioner,
                            const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy,
-                           int max_iterations) {
+                           int most) {
   ++counts_.solves;
   Eigen::BiCGSTAB<Matrix, Preconditioner> iterations;
   iterations.preconditioner() = preconditioner;
   iterations.setTolerance(accuracy);
-  iterations.setMaxIterations(max_iterations);
+  iterations.setMaxIterations(most);
   iterations.compute(matrix);
   x = iterations.solve(rhs);
   counts_.iterations += iterations.iterations();

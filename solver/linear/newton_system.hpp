@@ -68,7 +68,8 @@ class NewtonSystem {
   [[nodiscard]] int most_iterations(const Eigen::SparseMatrix<double>& matrix);
   void solve_directly(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& rhs,
                       Eigen::VectorXd& x, double accuracy);
-  /// Iterates with this preconditioner. Returns whether the solution was found.
+  /// Iterates with this preconditioner, `most` times at most. Returns whether the solution was
+  /// found.
   template <class Matrix, class Preconditioner>
   bool iterate(const Matrix& matrix, const Preconditioner& preconditioner,
                const Eigen::VectorXd& rhs, Eigen::VectorXd& x, double accuracy, int max_iterations);

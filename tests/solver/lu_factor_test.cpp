@@ -34,7 +34,8 @@ Matrix drifting(int n, double drift) {
       if (i + 1 < n && j + 1 < n) couple(a, a + n + 1, 0.2, 0.3 * drift);
     }
   }
-  Matrix result(n * n, n * n);
+  const int size = n * n;
+  Matrix result(size, size);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }

@@ -37,7 +37,7 @@ SafetyFactor safety_factor(const PlaneModel& m, const NodalLoads<2>& loads, doub
   StrengthReductionLimits limits;
   limits.tolerance = tolerance;
   const Supports<2> supports(m.grid, m.face_support);
-  const SafetyFactor result =
+  SafetyFactor result =
       find_safety_factor<2>(m.body(), supports, loads, pressure, m.threads, limits);
   for (const StrengthTrial& trial : result.trials) {
     std::cout << "  " << trial.factor
