@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <map>
 
+#include "checks/vertical_lines.hpp"
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
-#include "files/table_files.hpp"
 #include "mesh/faces.hpp"
 #include "tables/table_output.hpp"
 #include "values/derived_fields.hpp"
@@ -52,14 +52,16 @@ OuterFace outer_face(const Mesh<Dim>& mesh, const std::array<int, Dim>& nodes, i
   return {element, coordinates(centre), coordinates(normal)};
 }
 
+/// Boundaries through which water can leave. Within the soil, at walls, soil above holds it down.
 template <int Dim>
 std::vector<Boundary> boundaries_of(const ResultsReader& results, const Mesh<Dim>& mesh) {
   const auto elements = element_of_face(mesh);
   std::vector<Boundary> boundaries;
-  for (const std::string& name : booked_boundaries(results.scene().scene)) {
-    const auto found = std::ranges::find(mesh.boundaries, name, &BoundarySet<Dim>::name);
+  for (const BoundaryCondition& condition : results.scene().scene.boundaries) {
+    if (!lets_water_out(condition)) continue;
+    const auto found = std::ranges::find(mesh.boundaries, condition.on, &BoundarySet<Dim>::name);
     if (found == mesh.boundaries.end()) continue;
-    Boundary boundary{name, {}};
+    Boundary boundary{condition.on, {}};
     for (const auto& nodes : found->faces) {
       boundary.faces.push_back(outer_face<Dim>(mesh, nodes, elements.at(face_key<Dim>(nodes))));
     }
@@ -185,10 +187,14 @@ std::string safety_text(const ResultsReader& results, const std::vector<PartSafe
   }
   const bool moves = results.scene().scene.moves();
   if (const auto& first = parts.front().first_below) {
-    text += "a safety below 1 means that water lifts the soil there, for the first time at t = " +
-            time_digits(*first, unit) + " " + unit.name;
     text +=
-        moves ? "\n" : ": from then on results of a skeleton that stays in place mean nothing\n";
+        "a safety below 1 means that water lifts soil that nothing holds down, for the first "
+        "time at t = " +
+        time_digits(*first, unit) + " " + unit.name;
+    text +=
+        moves ? "\n"
+              : ": from then on results of a skeleton that stays in place mean nothing, unless the "
+                "place lies deep in the soil\n";
   }
   if (moves) text += motion_text(results.history(), unit);
   return text;

@@ -48,12 +48,13 @@ bool bears_water(const BoundaryCondition& condition) {
   return condition.head.has_value() || condition.pressure.has_value();
 }
 
+}  // namespace
+
 bool lets_water_out(const BoundaryCondition& condition) {
   return bears_water(condition) || condition.seepage_face || condition.rain.has_value() ||
-         condition.darcy_flux.has_value() || condition.velocity.has_value();
+         condition.darcy_flux.has_value() || condition.velocity.has_value() ||
+         condition.rate.has_value();
 }
-
-}  // namespace
 
 template <int Dim>
 VerticalLines<Dim>::VerticalLines(const Mesh<Dim>& mesh, const Scene& scene)

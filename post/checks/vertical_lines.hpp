@@ -12,6 +12,9 @@
 
 namespace suffuse {
 
+/// Whether water can leave through a boundary or a well.
+bool lets_water_out(const BoundaryCondition& condition);
+
 /// The part of a vertical line in one element.
 template <int Dim>
 struct LineSegment {

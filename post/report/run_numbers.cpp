@@ -34,7 +34,7 @@ std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
   return text + ". ";
 }
 
-std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
+std::string safety_sentence(const RunNumbers& numbers, bool moves, const TimeUnit& unit) {
   if (numbers.safety.empty()) return "";
   const auto place = [&](const LeastSafety& least) {
     return short_text(least.safety) + ", at " + place_text(least.place) +
@@ -52,7 +52,9 @@ std::string safety_sentence(const RunNumbers& numbers, const TimeUnit& unit) {
             ": below 1 water lifts soil that nothing holds down. It is below 1 for the first time "
             "at t = " +
             time_text(numbers.safety.front().first_below.value_or(anywhere->time), unit) +
-            ": from then on results of a skeleton that stays in place mean nothing. ";
+            (moves ? ". "
+                   : ": from then on results of a skeleton that stays in place mean nothing, "
+                     "unless the place lies deep in the soil. ");
   }
   return text;
 }
@@ -106,7 +108,7 @@ std::string summary_text(const ResultsReader& run, const RunNumbers& numbers) {
                      std::to_string(info.elements) +
                      " elements, computed until t = " + time_text(numbers.end, unit) + " in " +
                      std::to_string(info.steps) + " steps. ";
-  text += fines_text(run, numbers) + safety_sentence(numbers, unit);
+  text += fines_text(run, numbers) + safety_sentence(numbers, run.scene().scene.moves(), unit);
   if (numbers.worst) {
     text += "The largest residual of the mass balance is " +
             short_text(numbers.worst->worst_residual) + ", of " + numbers.worst->constituent +

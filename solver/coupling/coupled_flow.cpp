@@ -115,7 +115,8 @@ void FlowOfMovingSolid<Dim>::move_liquid_along(const SolidMotion& motion,
   flow.relative = flow.found.face_volume;
   const bool has_air = flow_.scheme().soils().air_moves();
   const ElementField<Dim> air = has_air ? flow_.mixed_state().air : ElementField<Dim>();
-  move_liquid(grid_, motion, air, flow.forcing.back().coefficients.porosity, flow.found);
+  move_liquid(grid_, motion, air, flow.forcing.back().coefficients.porosity,
+              flow_.mixed_state().face_pressure, flow.found);
   for (const double gain : motion.solid_gain) flow.room_gained.push_back(0.0 - gain);
 }
 

@@ -197,8 +197,9 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
       continue;
     }
     approach.worst_node.reset();
-    const std::vector<double> moved =
-        !soils.air_moves() ? motion.face_volume : without_air(motion, air, at_start, forcing);
+    const std::vector<double> moved = !soils.air_moves()
+                                          ? motion.face_volume
+                                          : without_air(motion, start.state, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
     forcing.expected_rise = as_std_vector(rise + beside);
     MixedStep<Dim> found = scheme.step(start.state, dt, {&forcing});
@@ -352,10 +353,11 @@ std::optional<Eigen::VectorXd> FlowAndMotion<Dim>::undrained_rise(
 
 template <int Dim>
 std::vector<double> FlowAndMotion<Dim>::without_air(const SolidMotion& motion,
-                                                    const ElementField<Dim>& air,
+                                                    const MixedState<Dim>& state,
                                                     const FlowCoefficients<Dim>& start,
                                                     FlowForcing<Dim>& forcing) const {
-  const MovedAir<Dim> moved(grid_, air, start.porosity, motion.face_volume);
+  const MovedAir<Dim> moved(grid_, state.air, start.porosity, motion.face_volume,
+                            state.face_pressure);
   std::vector<double> result(grid_.face_count());
   for (int f = 0; f < grid_.face_count(); ++f) result[f] = moved.without_air(f);
   FlowCoefficients<Dim>& c = forcing.coefficients;

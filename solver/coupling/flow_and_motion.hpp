@@ -110,7 +110,7 @@ class FlowAndMotion {
   /// Volume that crosses faces with the motion, without its air. Sets the porosity in `forcing` to
   /// that of `start` plus the volume that solid leaves.
   [[nodiscard]] std::vector<double> without_air(const SolidMotion& motion,
-                                                const ElementField<Dim>& air,
+                                                const MixedState<Dim>& state,
                                                 const FlowCoefficients<Dim>& start,
                                                 FlowForcing<Dim>& forcing) const;
   /// \param moved  volume that crosses faces with the motion, m3

@@ -48,12 +48,17 @@ void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
 
 template <int Dim>
 MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air,
-                        const std::vector<double>& porosity, const std::vector<double>& face_volume)
+                        const std::vector<double>& porosity, const std::vector<double>& face_volume,
+                        const std::vector<double>& face_pressure)
     : grid_(grid), solid_(face_volume.size(), 0.0), water_(solid_) {
   const std::vector<double> saturation = saturation_of(grid, air, porosity);
   for (int f = 0; f < grid.face_count(); ++f) {
-    // At the outer boundary of the mesh air, not water, takes the place of soil that leaves.
-    if (grid.is_outer(f)) continue;
+    // At the outer boundary of the mesh the water before it takes the place of soil that leaves,
+    // or air, which is not counted.
+    if (grid.is_outer(f)) {
+      if (face_pressure[f] > 0.0) water_[f] = face_volume[f];
+      continue;
+    }
     // Porosity and saturation are those of the element that the soil comes from.
     const double pores = taken_in(f, -face_volume[f], porosity);
     solid_[f] = (1.0 - pores) * face_volume[f];
@@ -78,7 +83,7 @@ double MovedAir<Dim>::pores_gained(int e) const {
 
 template <int Dim>
 double MovedAir<Dim>::water(int face, double solid, const std::vector<double>& saturation) const {
-  if (grid_.is_outer(face)) return 0.0;
+  if (grid_.is_outer(face)) return water_[face];
   const double beyond = solid - solid_[face];
   return water_[face] - taken_in(face, beyond, saturation) * beyond;
 }
@@ -95,14 +100,15 @@ std::vector<double> saturation_of(const Grid<Dim>& grid, const ElementField<Dim>
 
 template <int Dim>
 void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const ElementField<Dim>& air,
-                 std::vector<double> porosity, MixedStep<Dim>& step) {
+                 std::vector<double> porosity, const std::vector<double>& face_pressure,
+                 MixedStep<Dim>& step) {
   if (air.empty()) {
     for (int f = 0; f < grid.face_count(); ++f) {
       step.face_volume[f] += motion.face_volume[f] - motion.solid_face_volume[f];
     }
     return;
   }
-  const MovedAir<Dim> moved(grid, air, porosity, motion.face_volume);
+  const MovedAir<Dim> moved(grid, air, porosity, motion.face_volume, face_pressure);
   for (std::size_t e = 0; e < air.size(); ++e) {
     porosity[e] += moved.pores_gained(static_cast<int>(e)) / grid.volume[e];
   }
@@ -116,9 +122,9 @@ void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const Element
 template class MovedAir<2>;
 template class MovedAir<3>;
 template void move_liquid(const Grid<2>&, const SolidMotion&, const ElementField<2>&,
-                          std::vector<double>, MixedStep<2>&);
+                          std::vector<double>, const std::vector<double>&, MixedStep<2>&);
 template void move_liquid(const Grid<3>&, const SolidMotion&, const ElementField<3>&,
-                          std::vector<double>, MixedStep<3>&);
+                          std::vector<double>, const std::vector<double>&, MixedStep<3>&);
 template std::vector<double> saturation_of(const Grid<2>&, const ElementField<2>&,
                                            const std::vector<double>&);
 template std::vector<double> saturation_of(const Grid<3>&, const ElementField<3>&,

@@ -19,8 +19,10 @@ class MovedAir {
   /// \param air          before the motion, per side of each element, m3; not empty
   /// \param porosity     per element
   /// \param face_volume  of soil, S_f, along the normal of each face, m3
+  /// \param face_pressure  before the motion, Pa: water stands before an outer face where it is
+  /// above 0
   MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air, const std::vector<double>& porosity,
-           const std::vector<double>& face_volume);
+           const std::vector<double>& face_volume, const std::vector<double>& face_pressure);
 
   /// Solid and water, m3: the soil without its air.
   [[nodiscard]] double without_air(int face) const { return solid_[face] + water_[face]; }
@@ -48,9 +50,11 @@ class MovedAir {
 /// \param motion    committed
 /// \param air       before the step, per side of each element, m3; empty if there is none
 /// \param porosity  per element, before the motion
+/// \param face_pressure  see `MovedAir`
 template <int Dim>
 void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const ElementField<Dim>& air,
-                 std::vector<double> porosity, MixedStep<Dim>& step);
+                 std::vector<double> porosity, const std::vector<double>& face_pressure,
+                 MixedStep<Dim>& step);
 
 /// S of each element.
 template <int Dim>

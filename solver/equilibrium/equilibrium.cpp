@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "equilibrium/sharing_volumes.hpp"
 #include "grid/parallel.hpp"
 
 namespace suffuse {
@@ -12,26 +13,6 @@ namespace {
 
 /// Threads pay off from this number of elements on.
 constexpr int worth_sharing = 256;
-
-/// Elastic soil of a higher Poisson's ratio is so stiff against changes of its volume that linear
-/// displacements lock.
-constexpr double least_locking_poisson = 0.4;
-
-/// Volumes of the soil, m3, of elements that lock if they do not share their dilatation; 0
-/// otherwise.
-template <int Dim>
-std::vector<double> locking_volumes(const SolidBody<Dim>& body, const Supports<Dim>& supports,
-                                    std::vector<double> volume) {
-  const auto locks = [&](int p) {
-    const auto& [law, parameters] = body.skeleton[p];
-    return law->yields() || parameters.poisson > least_locking_poisson;
-  };
-  for (std::size_t k = 0; k < volume.size(); ++k) {
-    const auto e = static_cast<int>(k);
-    if (supports.is_rigid(e) || std::ranges::none_of(body.sorted.of(e), locks)) volume[e] = 0.0;
-  }
-  return volume;
-}
 
 /// A node with a smaller share of the mass that it has inside the soil moves with its element,
 /// whose change of the velocity's gradient has inertia then. Otherwise pressures, which act on the
@@ -116,7 +97,7 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
     for (const Vector<Dim>& g : body.grid.shape_gradient[e]) sum += (modulus * g).squaredNorm();
   }
   least_force_ = this->least_strain * std::sqrt(sum);
-  dilatation_ = SharedDilatation<Dim>(body.grid, locking_volumes(body, supports, soil_volume_));
+  dilatation_ = SharedDilatation<Dim>(body.grid, sharing_volumes(body, supports, soil_volume_));
 }
 
 template <int Dim>

@@ -17,8 +17,8 @@ namespace suffuse {
 ///     Jm = sum_e w_e J_e / sum_e w_e,
 ///
 /// with the volume w_e of an element's soil (F-bar patches: de Souza Neto, Andrade Pires and Owen,
-/// Int. J. Numer. Meth. Eng. 62 (2005) 353). Patches depend on the mesh alone and lie within a
-/// region. Triangles of a crossed mesh do not lock, and keep their own ratio.
+/// Int. J. Numer. Meth. Eng. 62 (2005) 353). Patches lie within a region; crossed triangles do not
+/// lock. Which elements share: `sharing_volumes`.
 template <int Dim>
 class SharedDilatation {
  public:

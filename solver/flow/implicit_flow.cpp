@@ -98,7 +98,7 @@ void ImplicitFlow<Dim>::start_from(const EarlierFlow<Dim>& earlier) {
 template <int Dim>
 bool ImplicitFlow<Dim>::flows_at_once() const {
   return std::isinf(this->scene().liquid.bulk_modulus) && !options_.inertia &&
-         !scheme_.has_retention();
+         !scheme_.has_retention() && !this->scene().moves();
 }
 
 template <int Dim>

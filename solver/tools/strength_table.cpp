@@ -17,7 +17,6 @@
 #include "physics/skeleton/skeleton_law.hpp"
 #include "results/reader.hpp"
 #include "results/vtkhdf.hpp"
-#include "scene/law_texts.hpp"
 #include "scene/scene_schema.hpp"
 
 namespace suffuse {
@@ -55,8 +54,8 @@ Snapshot start_snapshot(const Case<Dim>& c, int threads) {
   const auto has_no_soil = [&](const std::string& region) {
     return c.document.scene.is_free_water(region) && !scene.is_free_water(region);
   };
-  const bool has_moved = !scene.initial_from.empty();  // perhaps, in the run that it starts from
-  if (has_moved || std::ranges::any_of(c.mesh.region_names, has_no_soil)) {
+  // In the run that it starts from soil may have moved.
+  if (!scene.initial_from.empty() || std::ranges::any_of(c.mesh.region_names, has_no_soil)) {
     scene.soils = c.document.scene.soils;
     for (Soil& soil : scene.soils) {
       if (soil.skeleton.moves()) soil.skeleton.law = skeleton_law("elastic");
@@ -97,9 +96,8 @@ Snapshot read_snapshot(const ResultsReader& results, std::size_t index) {
 /// `0, 10, 20 s`; for many times their number, the first and the last.
 std::string shown_times(const std::vector<double>& times) {
   constexpr std::size_t most = 10;
-  std::vector<std::string> texts;
-  texts.reserve(times.size());
-  for (const double t : times) texts.push_back(shown_number(t));
+  std::vector<std::string> texts(times.size());
+  std::ranges::transform(times, texts.begin(), shown_number);
   if (times.size() <= most) return listed(texts) + " s";
   return std::to_string(times.size()) + " times from " + texts.front() + " to " + texts.back() +
          " s: " + texts[0] + ", " + texts[1] + ", " + texts[2] + " ...";
@@ -115,9 +113,7 @@ std::vector<std::size_t> chosen_snapshots(const ResultsReader& results, const st
   if (time.empty()) return {times.size() - 1};
   std::vector<std::size_t> chosen;
   const std::optional<double> asked = parse_number(time);
-  if (!asked && time != "all") {
-    refuse_option("--time", shown_value(time), "a time in s, or all");
-  }
+  if (!asked && time != "all") refuse_option("--time", shown_value(time), "a time in s, or all");
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (!asked || std::abs(times[k] - *asked) <= 1e-9 * times.back()) chosen.push_back(k);
   }
@@ -175,9 +171,9 @@ class StrengthTable {
   StrengthTable(const Case<Dim>& c, const StrengthReductionOptions& options)
       : options_(options), grid_(c.mesh), soils_(c) {}
 
-  /// Adds a row if there is a factor. Otherwise returns the reason.
+  /// Adds a row if there is a factor, and returns it. Otherwise adds the reason to `without`.
   /// \param where  name of the state in sentences
-  std::string add(const Snapshot& snapshot, const std::string& where) {
+  std::optional<double> add(const Snapshot& snapshot, const std::string& where) {
     const SoilState<Dim> state = soil_state(grid_, soils_, snapshot);
     warn_of_suction(state, where);
     SafetyFactor found = find_safety_factor(grid_, soils_, state, options_.failing,
@@ -187,17 +183,18 @@ class StrengthTable {
     time_ = state.time;
     has_soil_.assign(grid_.mesh.elements.size(), 0.0);
     for (const int e : state.points.element) has_soil_[e] = 1.0;
-    if (found.undecided_node >= 0) return where + ": " + undecided(found, state);
+    if (found.undecided_node >= 0) return leave_out(where + ": " + undecided(found, state));
     if (found.holds == 0.0) {
-      return where + ": there is no factor of safety: the soil fails, even with " +
-             shown_number(1.0 / found.fails) + " times its strength; " + moving_body(state) +
-             "; expected is soil that bears its loads with some strength: cohesion where water "
-             "pulls at soil or flows out of it, supports where it hangs. --region and --deeper "
-             "leave out soil that fails by itself";
+      return leave_out(
+          where + ": there is no factor of safety: the soil fails, even with " +
+          shown_number(1.0 / found.fails) + " times its strength; " + moving_body(state) +
+          "; expected is soil that bears its loads with some strength: cohesion where water "
+          "pulls at soil or flows out of it, supports where it hangs. --region and --deeper "
+          "leave out soil that fails by itself");
     }
     add_row(found, state);
     if (!options_.quiet) std::fprintf(stderr, "%s\n", sentence(found, state, where).c_str());
-    return {};
+    return factor_;
   }
   /// Writes the mechanism of the last row.
   void write_mechanism(const std::string& path) const {
@@ -232,10 +229,17 @@ class StrengthTable {
     pending.commit();
   }
 
+  /// Why states have no factor, a line each.
+  [[nodiscard]] const std::string& without() const { return without_; }
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] bool has_rows() const { return std::ranges::count(text_, '\n') > 1; }
 
  private:
+  std::nullopt_t leave_out(const std::string& why) {
+    without_ += (without_.empty() ? "" : "\n") + why;
+    return std::nullopt;
+  }
+
   void add_row(const SafetyFactor& found, const SoilState<Dim>& state) {
     long iterations = 0;
     double displacement = 0.0;
@@ -283,16 +287,14 @@ class StrengthTable {
                                       const SoilState<Dim>& state) const {
     const StrengthTrial& trial = found.trials.back();
     const Vector<Dim>& node = grid_.mesh.nodes[found.undecided_node];
-    int nearest = 0;
     const std::vector<Vector<Dim>>& places = state.points.position;
-    for (int p = 1; p < state.points.size(); ++p) {
-      if ((places[p] - node).squaredNorm() < (places[nearest] - node).squaredNorm()) nearest = p;
-    }
+    const auto nearest = std::ranges::min_element(
+        places, {}, [&](const Vector<Dim>& place) { return (place - node).squaredNorm(); });
     std::string text = "there is no factor of safety: with its strength over " +
                        short_text(trial.factor) + " the soil neither came to rest nor failed in " +
                        std::to_string(trial.iterations) + " iterations; " +
                        short_text(trial.residual) + " of all forces are out of balance, most in " +
-                       soil_at(state, nearest);
+                       soil_at(state, static_cast<int>(nearest - places.begin()));
     if (found.holds > 0.0) text += "; it holds with its strength over " + short_text(found.holds);
     if (std::isfinite(found.fails)) text += "; it fails with it over " + short_text(found.fails);
     return text +
@@ -326,11 +328,11 @@ class StrengthTable {
       volume += state.points.volume[p];
       elements.insert(state.points.element[p]);
     }
-    const bool is_small = elements.size() < few_elements;
     return "what fails moves most in " + soil_at(state, static_cast<int>(most - moved.begin())) +
            ", and half as far or farther in " + short_text(volume) + " m3 (" +
            std::to_string(elements.size()) + (elements.size() == 1 ? " element" : " elements") +
-           (is_small ? ", so few that a finer mesh may give a lower factor)" : ")");
+           (elements.size() < few_elements ? ", so few that a finer mesh may give a lower factor)"
+                                           : ")");
   }
 
   /// Remaining share of the erodible fines in soils with a strength; 1 if there were none.
@@ -341,8 +343,8 @@ class StrengthTable {
       const int id = state.id[p];
       const Soil& soil = soils_.soil_of_point(id);
       if (!has_strength(soil)) continue;
-      const double volume = soils_.points().volume[id];
-      const double erodible = volume * (soil.porosity_max() - soils_.initial_porosity(id));
+      const double erodible =
+          soils_.points().volume[id] * (soil.porosity_max() - soils_.initial_porosity(id));
       start += erodible;
       left += state.fines_left[p] * erodible;
     }
@@ -351,13 +353,10 @@ class StrengthTable {
 
   void warn_of_suction(const SoilState<Dim>& state, const std::string& where) const {
     double lowest = 0.0;
-    for (std::size_t e = 0; e < state.pressure.size(); ++e) {
-      const auto element = static_cast<int>(e);
-      if (!soils_.is_soil(element)) continue;
-      const Soil& soil = soils_.soil_of_element(element);
-      if (has_strength(soil) && !soil.drains()) {
-        lowest = std::min(lowest, state.pressure[e]);
-      }
+    for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+      if (!soils_.is_soil(e)) continue;
+      const Soil& soil = soils_.soil_of_element(e);
+      if (has_strength(soil) && !soil.drains()) lowest = std::min(lowest, state.pressure[e]);
     }
     if (lowest > -notable_suction) return;
     std::fprintf(stderr,
@@ -373,6 +372,7 @@ class StrengthTable {
   std::vector<double> has_soil_;   ///< 1 or 0 per element
   double factor_ = 0.0;
   double time_ = 0.0;  ///< s
+  std::string without_;
   std::string text_ = "t,factor,holds,fails,trials,iterations,fines_left,displacement_max\n";
 };
 
@@ -387,28 +387,29 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
   }
   TextOutput output(options.output);
   StrengthTable<Dim> table(c, options);
-  std::vector<std::string> without;
-  const auto add = [&](const Snapshot& snapshot, const std::string& where) {
-    std::string why = table.add(snapshot, where);
-    if (!why.empty()) without.push_back(std::move(why));
-  };
   if (options.state.empty()) {
-    add(start_snapshot(c, options.threads), "at the start");
+    table.add(start_snapshot(c, options.threads), "at the start");
   } else {
     const ResultsReader results(options.state);
     refuse_other_soil(c, results);
+    std::string last;  // time with a factor of at least 1, s
     for (const std::size_t index : chosen_snapshots(results, options.time)) {
-      add(read_snapshot<Dim>(results, index),
-          options.state + " at t = " + shown_number(results.times()[index]) + " s");
+      const std::string time = shown_number(results.times()[index]);
+      const std::optional<double> factor =
+          table.add(read_snapshot<Dim>(results, index), options.state + " at t = " + time + " s");
+      if (!factor) continue;
+      if (*factor < 1.0 && !last.empty() && !options.quiet) {
+        std::fprintf(stderr, "%s: the factor falls below 1 between t = %s and %s s\n",
+                     options.state.c_str(), last.c_str(), time.c_str());
+      }
+      last = *factor < 1.0 ? "" : time;
     }
   }
   if (!options.mechanism.empty()) table.write_mechanism(options.mechanism);
-  if (without.empty() || table.has_rows()) output.write(table.text());
-  if (without.empty()) return;
-  std::string message = without.front();
-  for (std::size_t k = 1; k < without.size(); ++k) message += '\n' + without[k];
-  if (table.has_rows()) message += "\nThe table has the other states";
-  throw NumericalError(message);
+  if (table.without().empty() || table.has_rows()) output.write(table.text());
+  if (table.without().empty()) return;
+  throw NumericalError(table.without() +
+                       (table.has_rows() ? "\nThe table has the other states" : ""));
 }
 
 template void run_strength_reduction(const Case<2>&, const StrengthReductionOptions&);

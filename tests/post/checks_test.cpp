@@ -400,7 +400,8 @@ TEST(Checks, SayWhenAFactorWasBelowOneForTheFirstTime) {
                 "\nhyd-forces, top: the factor is below 1 for the first time at t = 3 s\n"),
             std::string::npos);
   EXPECT_NE(safety_text(results, safety_of(results))
-                .find("lifts the soil there, for the first time at t = 4 s: from then on results"),
+                .find("lifts soil that nothing holds down, for the first time at t = 4 s: from "
+                      "then on results"),
             std::string::npos);
   const std::string table = check_table(report, 2, TimeUnit{"min", 60.0});
   EXPECT_TRUE(table.starts_with(

@@ -34,7 +34,7 @@ std::string geometry(double size) {
   return text.str();
 }
 
-std::string scene() {
+std::string scene(const std::string& wall = "") {
   std::ostringstream text;
   text << "name = \"pile\"\nformulation = \"single-point\"\ngeometry.file = \"pile.geo\"\n"
        << "mesh = { size = 1.0, structure = \"free\" }\n"
@@ -42,7 +42,7 @@ std::string scene() {
        << "soil.sand = { porosity = 0.4, skeleton_fraction = 0.6, grain_density = 2650.0, "
        << "conductivity = " << conductivity << " }\n"
        << "boundary = [{ on = \"upstream\", head = " << head << ", concentration = 0.0 }, "
-       << "{ on = \"downstream\", head = 0.0 }]\nwall = [{ on = \"pile\" }]\n"
+       << "{ on = \"downstream\", head = 0.0 }]\nwall = [{ on = \"pile\"" << wall << " }]\n"
        << "initial.flow = \"steady\"\ntime.end = 1.0\noutput.every = 1.0\n"
        << "[[output.section]]\nfrom = [0.0, -1.0]\nto = [0.0, -0.5]\n";
   return text.str();
@@ -83,6 +83,15 @@ TEST(ExitGradient, DischargesAgree) {
     ++compared;
   }
   EXPECT_EQ(compared, 2);
+}
+
+/// Water crosses a leaky pile upwards and leaves the soil farther on.
+TEST(ExitGradient, AWallThatLeaksIsNoExit) {
+  const ScratchFolder scratch;
+  const auto parts = safety_of(
+      testing::run_programs(scratch, "pile", scene(", conductance = 1e-6"), geometry(0.1)));
+  EXPECT_EQ(std::ranges::find(parts, "pile", &PartSafety::name), parts.end());
+  EXPECT_NE(std::ranges::find(parts, "downstream", &PartSafety::name), parts.end());
 }
 
 }  // namespace exit_gradient_test

@@ -24,6 +24,7 @@ class MovedAirTest : public testing::Test {
     for (const Vector<2>& normal : grid_.face_normal) {
       shift_.push_back(normal.dot(Vector<2>(0.01, -0.02)));
     }
+    suction_.assign(shift_.size(), -1e3);
   }
 
   [[nodiscard]] double outflow(int e, const std::vector<double>& through) const {
@@ -38,11 +39,12 @@ class MovedAirTest : public testing::Test {
   Grid<2> grid_;
   std::vector<double> porosity_;
   ElementField<2> air_;
-  std::vector<double> shift_;  ///< of a body that moves as a whole, m3
+  std::vector<double> shift_;    ///< of a body that moves as a whole, m3
+  std::vector<double> suction_;  ///< pressure at faces, Pa
 };
 
 TEST_F(MovedAirTest, ABodyThatMovesAsAWholeCarriesItsWater) {
-  const MovedAir<2> moved(grid_, air_, porosity_, shift_);
+  const MovedAir<2> moved(grid_, air_, porosity_, shift_, suction_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   std::vector<char> inside(porosity_.size(), 1);
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -60,7 +62,7 @@ TEST_F(MovedAirTest, ABodyThatMovesAsAWholeCarriesItsWater) {
 }
 
 TEST_F(MovedAirTest, AirTakesThePlaceOfSoilThatLeavesTheOuterBoundary) {
-  const MovedAir<2> moved(grid_, air_, porosity_, shift_);
+  const MovedAir<2> moved(grid_, air_, porosity_, shift_, suction_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (!grid_.is_outer(f)) continue;
@@ -69,15 +71,35 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfSoilThatLeavesTheOuterBoundary) {
   }
 }
 
+/// The volume that soil leaves at a boundary under water, or takes from it, is water.
+TEST_F(MovedAirTest, WaterTakesThePlaceOfSoilThatLeavesABoundaryUnderWater) {
+  const std::vector<double> pressure(shift_.size(), 1e3);
+  const MovedAir<2> moved(grid_, air_, porosity_, shift_, pressure);
+  const std::vector<double> saturation(porosity_.size(), 0.5);
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (!grid_.is_outer(f)) continue;
+    EXPECT_EQ(moved.without_air(f), shift_[f]);
+    EXPECT_EQ(moved.water(f, 0.0, saturation), shift_[f]);
+  }
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    double solid = 0.0;  // leaves through inner faces alone
+    for (int k = 0; k < 3; ++k) {
+      const int f = grid_.element_face[e][k];
+      if (!grid_.is_outer(f)) solid += grid_.element_face_sign[e][k] * 0.6 * shift_[f];
+    }
+    EXPECT_NEAR(moved.pores_gained(e), solid, 1e-16);
+  }
+}
+
 TEST_F(MovedAirTest, SoilComesFromTheElementBehindIt) {
   int f = 0;
   while (grid_.is_outer(f) || shift_[f] <= 0.0) ++f;
   porosity_[grid_.face_right[f]] = 0.9;
-  const MovedAir<2> with(grid_, air_, porosity_, shift_);
+  const MovedAir<2> with(grid_, air_, porosity_, shift_, suction_);
   EXPECT_NEAR(with.without_air(f), 0.8 * shift_[f], 1e-16);
   std::vector<double> back = shift_;
   for (double& v : back) v = -v;
-  const MovedAir<2> against(grid_, air_, porosity_, back);
+  const MovedAir<2> against(grid_, air_, porosity_, back, suction_);
   const double air = 0.5 * 0.4;
   EXPECT_NEAR(against.without_air(f), (1.0 - air) * back[f], 1e-16);
 }
@@ -86,7 +108,8 @@ TEST_F(MovedAirTest, SoilComesFromTheElementBehindIt) {
 TEST_F(MovedAirTest, NoElementGivesWaterThatItDoesNotHave) {
   int f = 0;
   while (grid_.is_outer(f)) ++f;
-  const MovedAir<2> still(grid_, air_, porosity_, std::vector<double>(grid_.face_count(), 0.0));
+  const std::vector<double> volume(grid_.face_count(), 0.0);
+  const MovedAir<2> still(grid_, air_, porosity_, volume, suction_);
   std::vector<double> saturation(porosity_.size(), 1.0);
   saturation[grid_.face_right[f]] = 0.0;
   EXPECT_DOUBLE_EQ(still.water(f, 0.01, saturation), 0.0);
@@ -108,7 +131,7 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfWhatLeaves) {
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     motion.solid_gain[e] = -outflow(e, motion.solid_face_volume);
   }
-  move_liquid(grid_, motion, air_, porosity_, step);
+  move_liquid(grid_, motion, air_, porosity_, suction_, step);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const double gained = element_sum<2>(step.end.air[e]) - element_sum<2>(air_[e]);
     const double left = outflow(e, step.face_volume) + outflow(e, motion.solid_face_volume);
@@ -132,7 +155,7 @@ TEST_F(MovedAirTest, AirOfASideStaysWithinItsRoom) {
       step.end.air[e] = {0.0, 0.5 * room, room};
       before[e] = {0.0, 0.5 * room, (1.0 + moved) * room};
     }
-    move_liquid(grid_, still, before, porosity_, step);
+    move_liquid(grid_, still, before, porosity_, suction_, step);
     for (int e = 0; e < grid_.mesh.element_count(); ++e) {
       const double room = porosity_[e] * grid_.volume[e] / 3.0;
       for (const double air : step.end.air[e]) {

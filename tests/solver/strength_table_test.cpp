@@ -301,6 +301,94 @@ TEST(StrengthTable, LeavesOutSoilThatFailsByItself) {
             "--region: got \"fil\"; expected a soil with a strength: fill or ground\n");
 }
 
+// ------------------------------------------------------------------ sand on sand, dry
+
+/// A fill of dry sand, 12 m high, on ground of the same sand, whose border runs through the toe.
+/// Soil without cohesion slides along its slope: F = tan(phi) / tan(beta).
+std::string sand_geometry(bool has_air) {
+  std::string text = R"(
+Point(1) = {-15, -6, 0};
+Point(2) = {45, -6, 0};
+Point(3) = {45, 0, 0};
+Point(4) = {45, 12, 0};
+Point(5) = {30, 12, 0};
+Point(6) = {0, 0, 0};
+Point(7) = {-15, 0, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 7};
+Line(7) = {7, 1};
+Line(8) = {3, 6};
+Curve Loop(1) = {1, 2, 8, 6, 7};
+Plane Surface(1) = {1};
+Curve Loop(2) = {3, 4, 5, -8};
+Plane Surface(2) = {2};
+Physical Surface("ground") = {1};
+Physical Surface("fill") = {2};
+Physical Curve("base") = {1};
+Physical Curve("right") = {2, 3};
+Physical Curve("left") = {7};
+)";
+  if (!has_air) return text;
+  return text + R"(
+Point(8) = {-15, 14, 0};
+Point(9) = {45, 14, 0};
+Line(9) = {4, 9};
+Line(10) = {9, 8};
+Line(11) = {8, 7};
+Curve Loop(3) = {9, 10, 11, -6, -5, -4};
+Plane Surface(3) = {3};
+Physical Surface("free_above") = {3};
+)";
+}
+
+std::string sand_scene(double mesh) {
+  return filled(R"(formulation = "single-point"
+gravity = [0.0, -9.81]
+geometry.file = "sand.geo"
+mesh = {size = %, structure = "free"}
+liquid = {density = 1000.0, bulk_modulus = 2e9, viscosity = 1e-3}
+initial.water_level = -6.0
+time.end = 1.0
+output.every = 1.0
+[soil.ground]
+porosity = 0.3
+skeleton_fraction = 0.65
+grain_density = 2650.0
+conductivity = 1e-5
+retention = {model = "van-genuchten", alpha = 1000.0, n = 3.0}
+skeleton = {law = "mohr-coulomb", young = 5e7, poisson = 0.3, friction = 36.0, cohesion = 0.0}
+[soil.fill]
+like = "ground"
+[[boundary]]
+on = "base"
+fix = "both"
+[[boundary]]
+on = "left"
+fix = "normal"
+[[boundary]]
+on = "right"
+fix = "normal"
+)",
+                {mesh});
+}
+
+/// Patches of triangles at the surface failed by themselves once, at a factor of 1.1.
+TEST(StrengthTable, SlopeOfDrySandOnFreeTriangles) {
+  const double exact = std::tan(36.0 * degree) * 30.0 / 12.0;
+  for (const bool has_air : {false, true}) {
+    const Workshop w;
+    w.folder().write("sand.geo", sand_geometry(has_air));
+    w.mesh("sand", sand_scene(has_air ? 2.0 : 1.5));
+    const double found = w.factors("sand").at("factor")[0];
+    std::cout << (has_air ? "below air " : "") << found << ", exact " << exact << "\n";
+    EXPECT_NEAR(found, exact, 0.05 * exact);
+  }
+}
+
 // ------------------------------------------------------------------ the infinite slope with
 // seepage
 
@@ -323,11 +411,11 @@ struct InfiniteSlope {
     const double n = porosity + erodible * (1.0 - left);
     return ((1.0 - n) * 2700.0 + n * 1000.0) * gravity;
   }
-  /// Factor of safety at a time.
-  static double exact(double time) {
+  /// Factor of safety at a time. `weaker`: degrees of friction that are missing.
+  static double exact(double time, double weaker = 0.0) {
     const double left = fines_left(time);
     const double weight = saturated_weight(left);
-    const double friction = (28.0 + 7.0 * left) * degree;
+    const double friction = (28.0 + 7.0 * left - weaker) * degree;
     return std::tan(friction) * (weight - water_weight) / (std::tan(slope) * weight);
   }
 
@@ -359,7 +447,7 @@ struct InfiniteSlope {
                   {201.0 + rows});
   }
 
-  static std::string scene(bool moves, double young = 1e8) {
+  static std::string scene(bool moves, double young = 1e8, double weaker = 0.0) {
     std::string text = filled(R"(formulation = "single-point"
 gravity = [%, %]
 geometry.file = "infinite.geo"
@@ -382,11 +470,11 @@ erosion = {law = "constant", rate = 1e-7, start = 0.0}
 law = "mohr-coulomb"
 young = %
 poisson = 0.3
-friction = [[1.0, 35.0], [0.0, 28.0]]
+friction = [[1.0, %], [0.0, %]]
 cohesion = 0.0
-dilation = 28.0
+dilation = %
 )",
-                     {young});
+                     {young, 35.0 - weaker, 28.0 - weaker, 28.0 - weaker});
     }
     text += "[soil.upper]\nlike = \"lower\"\n";
     if (moves) text += "skeleton.cohesion = 5e4\n[[boundary]]\non = \"bottom\"\nfix = \"both\"\n";
@@ -477,6 +565,23 @@ TEST(StrengthTable, SnapshotsOfARunWithARigidSkeleton) {
   const Columns found = infinite_slope().factors("moving", "--state rigid.results --time all");
   expect_exact_factors(found);
   expect_exact_fines(found);
+}
+
+TEST(StrengthTable, SaysBetweenWhichSnapshotsTheFactorFallsBelowOne) {
+  const Workshop& w = infinite_slope();
+  constexpr double weaker = 4.3;
+  ASSERT_GT(InfiniteSlope::exact(4e4, weaker), 1.01);
+  ASSERT_LT(InfiniteSlope::exact(6e4, weaker), 0.99);
+  w.mesh("weak", InfiniteSlope::scene(true, 1e8, weaker));
+  const std::string states = "--state rigid.results --time all";
+  const std::string sentence =
+      "rigid.results: the factor falls below 1 between t = 40000 and 60000 s\n";
+  static_cast<void>(w.table("weak", states));
+  EXPECT_NE(w.errors().find(sentence), std::string::npos) << w.errors();
+  static_cast<void>(w.table("weak", states + " --quiet"));
+  EXPECT_EQ(w.errors(), "");
+  static_cast<void>(w.table("moving", states));
+  EXPECT_EQ(w.errors().find("falls below"), std::string::npos) << w.errors();
 }
 
 TEST(StrengthTable, SnapshotsOfSoftSoilThatHasMoved) {

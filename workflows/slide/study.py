@@ -3,9 +3,12 @@
 
     study.py factors SOLVER STEM          prints the factor of safety through the flood, as CSV
     study.py fall RESULTS                 prints the range of times, s, in which the soil falls after it first fails
-    study.py moments PROGRAMS FOLDER      prints the moment at which it loses its equilibrium, by mesh and tolerance, as CSV
+    study.py moments PROGRAMS FOLDER      prints the moment at which it loses its equilibrium, by mesh and tolerance, as CSV, and
+                                          that at which its factor with quadratic displacements falls to 1
 """
 
+import csv
+import math
 import pathlib
 import sys
 
@@ -14,13 +17,36 @@ sys.path.insert(1, str(here.parent))
 from common import call, read_rows, run_json, set_options
 
 
+def factor(solver, stem, time, *options):
+    """The table row of the factor of safety of a state; None if it has none."""
+    said = call(solver, f"{stem}.case.h5", "--strength-reduction", "--state", f"{stem}.results", "--time", time, *options, ok=(0, 3)).stdout
+    rows = list(csv.DictReader(said.splitlines()))
+    return rows[0] if rows else None
+
+
 def factors(solver, stem):
-    lines = []
+    print("t,factor,quadratic,fines_left")
     for time in range(0, 20001, 2500):
-        said = call(solver, f"{stem}.case.h5", "--strength-reduction", "--state", f"{stem}.results", "--time", time, ok=(0, 3)).stdout.splitlines()
-        if said:  # there are states without a factor
-            lines += [said[-1]] if lines else [said[0], said[-1]]
-    print("\n".join(lines))
+        linear, quadratic = factor(solver, stem, time), factor(solver, stem, time, "--quadratic")
+        if linear and quadratic:
+            print(time, linear["factor"], quadratic["factor"], linear["fines_left"], sep=",", flush=True)
+
+
+def fall_to_one(solver, stem, step):
+    """The time, s, at which the factor with quadratic displacements falls to 1, between snapshots every so many seconds."""
+    def excess(time):
+        row = factor(solver, stem, time, "--quadratic")
+        return math.log(float(row["factor"])) if row else -1.0
+    low, high = 0, int(float(read_rows(f"{stem}.results/history.csv")[-1]["t"])) // step
+    above, below = 1.0, -1.0
+    while high - low > 1:
+        middle = (low + high) // 2
+        found = excess(middle * step)
+        if found > 0:
+            low, above = middle, found
+        else:
+            high, below = middle, found
+    return round((low + above / (above - below)) * step)
 
 
 def fall(results):
@@ -31,16 +57,18 @@ def fall(results):
 
 
 def moments(programs, folder):
-    print("size,tolerance,elements,steps,wall_seconds,failure_time", flush=True)
-    for size, tolerance in (("0.7", "1e-3"), ("0.5", "1e-3"), ("0.35", "1e-3"), ("0.25", "1e-3"), ("0.5", "1e-2"), ("0.5", "3e-4")):
+    print("size,tolerance,elements,steps,wall_seconds,failure_time,factor_falls_to_1", flush=True)
+    for size, tolerance in (("1", "1e-3"), ("0.7", "1e-3"), ("0.5", "1e-3"), ("0.35", "1e-3"), ("0.25", "1e-3"), ("0.5", "1e-2"), ("0.5", "3e-4")):
         stem = f"{folder}/size-{size}-tolerance-{tolerance}"
-        keys = ["name=slide", f"mesh.size={size}", f"time.tolerance={tolerance}", "time.failure=stop", "time.end=40000.0", "output={every=500.0}"]
+        keys = ["name=slide", f"mesh.size={size}", f"time.tolerance={tolerance}", "time.failure=stop", "time.end=40000.0",
+                "output={every=500.0,snapshot_every=500.0}"]
         call(f"{programs}/suffuse-mesher", here.parent / "examples/slide/slide.toml", "-o", f"{stem}.case.h5", *set_options(keys))
         # The run ends when the soil has lost its equilibrium; otherwise the time stays empty.
         code = call(f"{programs}/suffuse-solver", f"{stem}.case.h5", "-o", f"{stem}.results", "--force", "--quiet", ok=(0, 3)).returncode
         failed = read_rows(f"{stem}.results/history.csv")[-1]["t"] if code else ""
         run = run_json(f"{stem}.results")
-        print(size, tolerance, run["elements"], run["steps"], run["wall_seconds"], failed, sep=",", flush=True)
+        fell = fall_to_one(f"{programs}/suffuse-solver", stem, 500)
+        print(size, tolerance, run["elements"], run["steps"], run["wall_seconds"], failed, fell, sep=",", flush=True)
 
 
 if __name__ == "__main__":
