@@ -1,6 +1,5 @@
 #include "tools/element_test.hpp"
 
-
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
 #include "driver/text_output.hpp"
