@@ -30,7 +30,13 @@ std::string boundaries_text(const ResultsReader& results) {
   if (boundaries.empty()) {
     throw FileError(results.folder() + ": boundaries.csv has no rows");
   }
-  std::size_t width = 3;
+  const std::vector<Wall>& walls = results.scene().scene.walls;
+  const auto is_wall = [&](const NamedTable& b) {
+    return std::ranges::count(walls, b.name, &Wall::on) > 0;
+  };
+  // What crosses a wall stays in the model.
+  const std::string all = std::ranges::any_of(boundaries, is_wall) ? "all but walls" : "all";
+  std::size_t width = all.size();
   for (const NamedTable& b : boundaries) width = std::max(width, b.name.size());
   const auto line = [&](const std::string& name, const auto& cells) {
     std::string text = name + std::string(width - name.size(), ' ');
@@ -50,11 +56,11 @@ std::string boundaries_text(const ResultsReader& results) {
     std::array<double, columns.size()> last{};
     for (std::size_t k = 0; k < columns.size(); ++k) {
       last.at(k) = b.table.column(columns.at(k)).back();
-      sum.at(k) += last.at(k);
+      if (!is_wall(b)) sum.at(k) += last.at(k);
     }
     text += line(b.name, last);
   }
-  return text + line("all", sum);
+  return text + line(all, sum);
 }
 
 }  // namespace suffuse

@@ -73,20 +73,19 @@ SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
   const double weight = unit_weight(scene.liquid.density, scene.gravity);
   const VectorField<Dim> gradient = hydraulic_gradient(grid, flow, scene);
   ExactSum now;
+  ExactSum saturated;
   ExactSum initial;
   for (const int e : grid.own_elements()) {
     if (!soils.is_soil(e)) continue;
     const Vector<Dim> flux = flux_at(grid, flow.face_flux, e, element_centroid(grid.mesh, e));
-    const double relative =
-        flow.relative_conductivity.empty() ? 1.0 : flow.relative_conductivity[e];
-    const double conductivity =
-        soils.conductivity_factor(e) * soils.soil_of_element(e).conductivity * relative;
     now.add(weight * grid.volume[e] * flux.dot(gradient[e]));
+    if (!flow.relative_conductivity.empty() && flow.relative_conductivity[e] < 1.0) continue;
+    saturated.add(weight * grid.volume[e] * flux.dot(gradient[e]));
     initial.add(weight * grid.volume[e] * flux.squaredNorm() * soils.resistance_along(e, flux) /
-                conductivity);
+                (soils.conductivity_factor(e) * soils.soil_of_element(e).conductivity));
   }
-  grid.ranks().sum({&now, &initial});
-  return {now.value(), initial.value()};
+  grid.ranks().sum({&now, &saturated, &initial});
+  return {now.value(), saturated.value(), initial.value()};
 }
 
 template <int Dim>

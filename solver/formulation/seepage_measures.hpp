@@ -25,11 +25,13 @@ void describe_flow(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficie
 /// Power that water dissipates in soil, W (per metre of thickness in 2D).
 struct SeepagePower {
   double now = 0.0;           ///< integral of rho_w g q . i over the soil
-  double initial_soil = 0.0;  ///< for the same flux with the initial conductivity
+  double saturated = 0.0;     ///< over that which is saturated
+  double initial_soil = 0.0;  ///< there, for the same flux with the initial conductivity
 
-  /// k_eff / k_0: for flow along a column, its effective conductivity over the initial one. 0
-  /// without flow.
-  [[nodiscard]] double conductivity_ratio() const { return now > 0.0 ? initial_soil / now : 0.0; }
+  /// k_eff / k_0: for flow along a column, its conductivity over the initial one. 0 without flow.
+  [[nodiscard]] double conductivity_ratio() const {
+    return saturated > 0.0 ? initial_soil / saturated : 0.0;
+  }
 };
 
 template <int Dim>

@@ -10,6 +10,7 @@
 
 #include "checks/heave_safety.hpp"
 #include "post/run_programs.hpp"
+#include "tables/boundary_text.hpp"
 #include "values/sample.hpp"
 
 namespace suffuse {
@@ -88,10 +89,23 @@ TEST(ExitGradient, DischargesAgree) {
 /// Water crosses a leaky pile upwards and leaves the soil farther on.
 TEST(ExitGradient, AWallThatLeaksIsNoExit) {
   const ScratchFolder scratch;
-  const auto parts = safety_of(
-      testing::run_programs(scratch, "pile", scene(", conductance = 1e-6"), geometry(0.1)));
+  const ResultsReader results =
+      testing::run_programs(scratch, "pile", scene(", conductance = 1e-6"), geometry(0.1));
+  const auto parts = safety_of(results);
   EXPECT_EQ(std::ranges::find(parts, "pile", &PartSafety::name), parts.end());
   EXPECT_NE(std::ranges::find(parts, "downstream", &PartSafety::name), parts.end());
+  // Nor does its water enter or leave the model: the masses in and out are those of the ends.
+  const std::string text = boundaries_text(results);
+  const auto cells = [&](const std::string& name) {
+    std::istringstream line(text.substr(text.find('\n' + name) + 1 + name.size()));
+    std::array<double, 2> masses{};
+    line >> masses[0] >> masses[1];
+    return masses;
+  };
+  const auto [in, out] = cells("all but walls");
+  EXPECT_GT(cells("pile")[0], 0.0);
+  EXPECT_EQ(in, cells("upstream")[0]);
+  EXPECT_EQ(out, cells("downstream")[1]);
 }
 
 }  // namespace exit_gradient_test

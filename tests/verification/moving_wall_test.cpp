@@ -46,7 +46,8 @@ fix = "both"
 on = "sides"
 fix = "normal"
 )" + top("left", left) +
-         top("right", right) + inside + "[time]\nend = 100.0\n[output]\nevery = 100.0\n";
+         top("right", right) + inside +
+         "[initial]\nflow = \"steady\"\n[time]\nend = 100.0\n[output]\nevery = 100.0\n";
 }
 
 /// Settlement of points in the middle of each half over their height, relative to q / E_oed, and

@@ -90,6 +90,25 @@ TEST_P(AlongAColumn, PowerAndConductivityAreThoseOfTheWhole) {
 
 INSTANTIATE_TEST_SUITE_P(Columns, AlongAColumn, ::testing::Bool());
 
+/// Soil that fills with water conducts more than it did, but its conductivity is the same.
+TEST(SeepageMeasures, SoilThatFillsKeepsItsConductivity) {
+  Case<2> c = column(false);
+  Scene& scene = c.document.scene;
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.boundaries = {model::pressure_on("bottom", 2.0 * weight)};
+  scene.water_level = -2.0;
+  scene.soils[0].erosion = {};
+  scene.soils[0].retention = model::van_genuchten(2.0, 2.0);
+  scene.soils[0].conductivity = 1e-4;
+  scene.initial_flow = InitialFlow::rest;
+  scene.time.end = 200.0;
+  model::ModelRun run(std::move(c));
+  for (const auto& state : run.run({50.0, 100.0, 200.0}).states) {
+    std::cout << "t = " << state.time << " s: " << state.history.conductivity_ratio << "\n";
+    EXPECT_NEAR(state.history.conductivity_ratio, 1.0, 0.01);
+  }
+}
+
 TEST(SeepageMeasures, LossesAreThoseOfTheLedger) {
   model::ModelRun run(column(false));
   run.run({60.0});

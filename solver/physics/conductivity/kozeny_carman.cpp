@@ -10,7 +10,7 @@ namespace {
 constexpr ConductivityParameter size_ratio{
     .key = "size_ratio",
     .symbol = "r",
-    .sentence = "Mean size of the coarse grains over that of the fines.",
+    .sentence = "Mean size of the coarse grains over that of the fines, at least 1.",
     .value = &ConductivityParameters::size_ratio};
 
 double shape(const ConductivityModel& model, double porosity) {
