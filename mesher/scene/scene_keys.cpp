@@ -608,7 +608,8 @@ std::vector<SceneKey> declare_keys() {
           .otherwise_as("none"),
       key("well[].rate", on_boundary(&Boundary::rate),
           "Volume that enters the model through all of the well per time, per metre of thickness: "
-          "negative for a well that is pumped.")
+          "negative for a well that is pumped. Soils share it by their conductivities at the "
+          "start.")
           .named("Q")
           .in("m3/s")
           .otherwise_as("none"),

@@ -55,7 +55,7 @@ FaceCondition condition_of(const BoundaryCondition& boundary, int index, double 
 FaceCondition at_face(const BoundaryCondition& boundary, FaceCondition condition,
                       const FaceSurroundings& around) {
   if (boundary.head) prescribe_head(condition.value, boundary.dry, around, condition);
-  if (boundary.rate) condition.value /= around.area;
+  if (boundary.rate) condition.value *= around.share;
   return condition;
 }
 
@@ -80,33 +80,48 @@ std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
   return varying;
 }
 
-/// Finds heights of faces and areas of boundaries.
+/// Free water takes a well's rate as soil of this conductivity would, m/s.
+constexpr double conductivity_of_free_water = 1.0;
+
+/// Finds heights of faces and their shares of rates.
 template <int Dim>
 class Outside {
  public:
   Outside(const Scene& scene, const Grid<Dim>& grid)
-      : grid_(grid),
+      : scene_(scene),
+        grid_(grid),
         gravity_(scene.gravity),
         water_line_(grid.mesh, scene.gravity,
                     largest_of_all(grid.ranks(), largest_coordinate(grid.mesh))),
         unit_weight_(unit_weight(scene.liquid.density, scene.gravity)) {}
-  [[nodiscard]] FaceSurroundings of(int face, double boundary_area) const {
+  /// \param conductance  of the face's boundary, m3/s
+  [[nodiscard]] FaceSurroundings of(int face, double conductance) const {
     return {.unit_weight = unit_weight_,
             .gravity = has_gravity(gravity_),
             .height = height(grid_.face_centre(face), gravity_),
             .wet_above = water_line_.wet_above(grid_.face_nodes[face]),
-            .area = boundary_area};
+            .share = conductivity_across(face) / conductance};
   }
-  [[nodiscard]] double area_of(const std::vector<int>& faces) const {
+  /// Sum of k A over these faces, m3/s.
+  [[nodiscard]] double conductance_of(const std::vector<int>& faces) const {
     ExactSum sum;
     for (const int f : faces) {
-      if (grid_.owns_face(f)) sum.add(grid_.face_normal[f].norm());
+      if (grid_.owns_face(f)) sum.add(conductivity_across(f) * grid_.face_normal[f].norm());
     }
     grid_.ranks().sum({&sum});
     return sum.value();
   }
 
  private:
+  [[nodiscard]] double conductivity_across(int face) const {
+    const Mesh<Dim>& mesh = grid_.mesh;
+    const int region = mesh.element_region[grid_.face_left[face]];
+    const Soil* soil = scene_.find_soil(mesh.region_names[region]);
+    if (!soil) return conductivity_of_free_water;
+    return soil->conductivity / soil->resistance_along(grid_.face_normal[face]);
+  }
+
+  const Scene& scene_;
   const Grid<Dim>& grid_;
   std::array<double, 3> gravity_;
   WaterLine<Dim> water_line_;
@@ -160,10 +175,10 @@ std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& 
   const Outside<Dim> outside(scene, grid);
   const auto faces = faces_of_boundaries(c, grid);
   for (int b = 0; b < static_cast<int>(faces.size()); ++b) {
-    const double area = outside.area_of(faces[b]);
+    const double conductance = outside.conductance_of(faces[b]);
     const FaceCondition start = condition_of(scene.boundaries[b], b, 0.0);
     for (const int f : faces[b]) {
-      const FaceSurroundings around = outside.of(f, area);
+      const FaceSurroundings around = outside.of(f, conductance);
       result[f] = at_face(scene.boundaries[b], start, around);
       result[f].switches = may_switch(scene.boundaries[b], around, scene.time.end);
     }
@@ -199,8 +214,8 @@ BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
     for (int f = 0; f < grid.face_count(); ++f) {
       if (initial_[f].boundary == b) varying.faces.push_back(f);
     }
-    const double area = outside.area_of(varying.faces);
-    for (const int f : varying.faces) varying.around.push_back(outside.of(f, area));
+    const double conductance = outside.conductance_of(varying.faces);
+    for (const int f : varying.faces) varying.around.push_back(outside.of(f, conductance));
     for (const TimeFunction& value : values) {
       for (const double time : value.breakpoints()) {
         if (time > 0.0 && time < scene.time.end) breakpoints_.push_back(time);

@@ -44,7 +44,10 @@ struct FaceSurroundings {
   bool gravity = false;
   double height = 0.0;     ///< z of the face's centre against gravity, m
   double wet_above = 0.0;  ///< the face is under water if the head exceeds this (`WaterLine`), m
-  double area = 0.0;       ///< total area of the boundary, m2
+  /// Darcy flux through the face per rate of the whole boundary, 1/m2: k/(sum of k A), where k is
+  /// the conductivity at the start across the face. Layers share a well's rate as their discharges
+  /// under one head in the well do (McDonald and Harbaugh, MODFLOW, USGS TWRI 6-A1, 1988).
+  double share = 0.0;
 };
 
 /// The condition of each face of the grid, with its values at t = 0. Throws InputError when a

@@ -1,4 +1,4 @@
-/// A pumped well in a disc: h2 - h1 = Q / (2 pi k) ln(r2 / r1).
+/// Pumped wells: in a disc, h2 - h1 = Q / (2 pi k) ln(r2 / r1); in layers, which share its rate.
 
 #include <gtest/gtest.h>
 
@@ -69,6 +69,50 @@ TEST(Well, DrawsTheHeadDownByTheLogarithm) {
             << '\n';
   EXPECT_LT(std::abs(fine), 5e-3);
   EXPECT_GT(order, 1.8);
+}
+
+/// A well through sand and clay with bedding, at the end of horizontal layers: in both the head
+/// falls linearly to the well, which has one level.
+TEST(Well, TakesFromLayersAsOneLevelWould) {
+  constexpr double length = 10.0;                 // m
+  constexpr double sand = 1e-4;                   // m/s
+  constexpr double clay = 1e-7;                   // m/s, along its bedding
+  constexpr double transmissivity = sand + clay;  // of two layers of 1 m, m2/s
+  Mesh<2> mesh = model::column_mesh(10, 8, length, 2.0);
+  mesh.region_names.emplace_back("clay");
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    if (element_centroid(mesh, e)[1] > 1.0) mesh.element_region[e] = 1;
+  }
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.end = 10.0;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.soils[0].conductivity = sand;
+  scene.soils.push_back(scene.soils[0]);
+  scene.soils[1].region = "clay";
+  scene.soils[1].conductivity = clay;
+  scene.soils[1].conductivity_across = 0.01 * clay;
+  BoundaryCondition well;
+  well.on = "left";
+  well.rate = TimeFunction({{0.0, -1e-5}, {10.0, -3e-5}});
+  BoundaryCondition rim;
+  rim.on = "right";
+  rim.head = TimeFunction(0.0);
+  scene.boundaries = {well, rim};
+  model::ModelRun run(model::make_case(std::move(mesh), scene));
+  const auto expect_level = [&](double pumped) {
+    const FlowState<2> flow = run.model().flow_state();
+    const Grid<2>& grid = run.model().grid();
+    const double level = -pumped * length / transmissivity;
+    for (int f = 0; f < grid.face_count(); ++f) {
+      if (!grid.is_outer(f) || grid.face_centre(f)[0] > 1e-9) continue;
+      EXPECT_NEAR(flow.face_pressure[f] / 9810.0, level, 1e-9 * pumped * length / transmissivity)
+          << "at a height of " << grid.face_centre(f)[1] << " m";
+    }
+  };
+  expect_level(1e-5);
+  static_cast<void>(run.run({10.0}));
+  expect_level(3e-5);
 }
 
 }  // namespace well_test
