@@ -169,7 +169,8 @@ void add_strength_reduction(CLI::App& app, Arguments& arguments) {
           ->type_name("FOLDER")
           ->needs(mode);
   app.add_option("--time", arguments.strength.time,
-                 "Time of a snapshot of that run, s, in the place of the last; all: a row for each")
+                 "Time of a snapshot of that run, in s or with a unit, in the place of the last; "
+                 "all: a row for each")
       ->type_name("TIME")
       ->needs(state);
   app.add_option("--region", arguments.strength.failing.regions,

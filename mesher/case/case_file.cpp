@@ -10,6 +10,7 @@
 #include "case/mesh_io.hpp"
 #include "common/pending_file.hpp"
 #include "mesh/faces.hpp"
+#include "mesh/place_text.hpp"
 
 namespace suffuse {
 
@@ -210,8 +211,8 @@ class CaseReader : private ElementReader<Dim> {
       if (std::abs(sum[e] - expected) <= volume_tolerance * expected) continue;
       std::ostringstream message;
       message.precision(10);
-      message << "the volumes of the points in element " << e << " at ("
-              << element_centroid(mesh, e).transpose() << ") add up to " << sum[e]
+      message << "the volumes of the points in element " << e << " at "
+              << place_text<Dim>(element_centroid(mesh, e)) << " add up to " << sum[e]
               << " m3; expected " << expected;
       fail(group + "/volume", message.str());
     }

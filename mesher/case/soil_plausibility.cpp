@@ -15,6 +15,7 @@ constexpr double most_over_hazen = 1e3;
 constexpr double least_friction = 1.5;   // degrees; 1.5 radians are 86 degrees
 constexpr double least_cohesion = 50.0;  // Pa
 constexpr double noticed_stress = 1e4;   // Pa; a cohesion of a few Pa has no effect at more
+constexpr double most_strain = 0.5;      // the largest stress over the modulus
 
 template <int Dim>
 class Soils : private PlausibilityBase<Dim> {
@@ -28,6 +29,7 @@ class Soils : private PlausibilityBase<Dim> {
       check_fines(soil);
       check_friction(soil);
       check_cohesion(soil, stress);
+      check_stiffness(soil, stress);
     }
     for (const BoundaryCondition& boundary : scene_.boundaries) check_traction(boundary);
     return std::move(warnings_);
@@ -108,6 +110,16 @@ class Soils : private PlausibilityBase<Dim> {
          short_number(cohesion) + " Pa, and stresses reach some " +
              short_number(std::round(stress / 1e3)) +
              " kPa; cohesions are in Pa, 1 kPa = 1e3 Pa, and 0 is none");
+  }
+
+  void check_stiffness(const Soil& soil, double stress) {
+    const std::string key = joined(joined(table_of(soil), "skeleton"), "young");
+    if (!soil.skeleton.moves() || !given(key)) return;
+    const double young = soil.skeleton.at(1.0).young;
+    if (stress <= most_strain * young) return;
+    warn(key, short_number(young) + " Pa, and stresses reach some " +
+                  short_number(std::stod(three_digits(stress))) +
+                  " Pa, which would press the soil together; moduli are in Pa, 1 MPa = 1e6 Pa");
   }
 
   /// 1/c_v, mean over the soil that moves, s/m2.

@@ -14,6 +14,7 @@
 #include "figures/render.hpp"
 #include "tables/table_output.hpp"
 #include "values/run_names.hpp"
+#include "values/sample.hpp"
 
 namespace suffuse {
 namespace {

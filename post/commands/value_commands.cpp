@@ -3,9 +3,9 @@
 #include <iostream>
 
 #include "commands/command.hpp"
+#include "files/time_unit.hpp"
 #include "tables/reference_error.hpp"
 #include "values/sample.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {

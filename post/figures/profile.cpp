@@ -6,12 +6,12 @@
 #include "drawing/color_map.hpp"
 #include "drawing/ticks.hpp"
 #include "figures/measured.hpp"
+#include "files/time_unit.hpp"
 #include "tables/table_output.hpp"
 #include "values/name_words.hpp"
 #include "values/refusal.hpp"
 #include "values/run_names.hpp"
 #include "values/sample.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {

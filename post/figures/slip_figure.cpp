@@ -8,8 +8,8 @@
 #include "figures/field_picture.hpp"
 #include "files/layout.hpp"
 #include "files/number_text.hpp"
+#include "files/time_unit.hpp"
 #include "results/vtkhdf.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {

@@ -8,10 +8,10 @@
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
 #include "files/table_files.hpp"
+#include "files/time_unit.hpp"
 #include "report/html.hpp"
 #include "report/report_pictures.hpp"
 #include "tables/discharge_text.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "files/time_unit.hpp"
 #include "report/report_progress.hpp"
 #include "results/reader.hpp"
 #include "tables/table_output.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "common/errors.hpp"
-#include "values/time_unit.hpp"
+#include "files/time_unit.hpp"
 
 namespace suffuse {
 namespace {

@@ -8,8 +8,8 @@
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
 #include "files/tables.hpp"
+#include "files/time_unit.hpp"
 #include "tables/table_output.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {

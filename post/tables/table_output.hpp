@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "files/time_unit.hpp"
 #include "results/reader.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 

@@ -7,10 +7,10 @@
 
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
+#include "files/time_unit.hpp"
 #include "values/derived_fields.hpp"
 #include "values/name_words.hpp"
 #include "values/refusal.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {

@@ -8,10 +8,10 @@
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
+#include "files/time_unit.hpp"
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 #include "values/refusal.hpp"
-#include "values/time_unit.hpp"
 
 namespace suffuse {
 namespace {
@@ -264,6 +264,11 @@ std::vector<std::string> parse_field_names(const std::string& text) {
            "names of fields with commas between");
   }
   return names;
+}
+
+double parse_time(const std::string& text, const std::string& command) {
+  if (const auto time = read_time(text)) return *time;
+  refuse(command, "--time", '"' + text + '"', "a time " + time_forms());
 }
 
 std::vector<double> parse_times(const ResultsReader& results, const std::string& text) {

@@ -29,6 +29,9 @@ Position parse_place(const std::string& text);
 /// Reads `a,b,c`. Throws InputError on an empty name.
 std::vector<std::string> parse_field_names(const std::string& text);
 
+/// `read_time`. Throws InputError, naming `command`, for a text that is no time.
+double parse_time(const std::string& text, const std::string& command);
+
 /// Times of all snapshots for `all`, otherwise those of `t1,t2,...`, in s or with a unit each.
 /// Throws InputError.
 std::vector<double> parse_times(const ResultsReader& results, const std::string& text);

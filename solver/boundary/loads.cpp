@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grid/near_element.hpp"
+#include "mesh/place_text.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {
@@ -118,10 +119,9 @@ PointPlace<Dim> LoadedSurface<Dim>::carrier(const Grid<Dim>& grid, const PointsB
     e = next;
   }
   if (sorted.is_empty(e)) {
-    std::ostringstream message;
-    message << "the loaded surface at (" << position_[place].transpose()
-            << ") has lost its soil: there is none within " << farthest << " elements below";
-    throw NumericalError(message.str());
+    throw NumericalError("the loaded surface at " + place_text<Dim>(position_[place]) +
+                         " has lost its soil: there is none within " + std::to_string(farthest) +
+                         " elements below");
   }
   return {e, barycentric(grid.mesh, e, position_[place])};
 }
@@ -166,10 +166,8 @@ void LoadedSurface<Dim>::move(const Grid<Dim>& grid, const PointsByElement& sort
       continue;
     }
     if (e < 0) {
-      std::ostringstream message;
-      message << "the loaded surface moves to (" << position_[i].transpose()
-              << "), which is far outside the mesh; make the mesh larger";
-      throw NumericalError(message.str());
+      throw NumericalError("the loaded surface moves to " + place_text<Dim>(position_[i]) +
+                           ", which is far outside the mesh; make the mesh larger");
     }
     element_[i] = e;
   }

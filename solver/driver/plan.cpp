@@ -15,6 +15,7 @@
 #include "formulation/point_checks.hpp"
 #include "formulation/single_point.hpp"
 #include "linear/lagged_preconditioner.hpp"
+#include "mesh/place_text.hpp"
 #include "physics/drag.hpp"
 #include "physics/head.hpp"
 #include "physics/liquid.hpp"
@@ -100,9 +101,7 @@ void refuse_unstable_step(const Case<Dim>& c, const Plan& plan) {
   std::ostringstream expected;
   expected.precision(6);
   expected << "at most " << plan.limit.step << " s, the stability limit, set by element "
-           << plan.limit.element << " at (" << place[0];
-  for (int d = 1; d < Dim; ++d) expected << ", " << place[d];
-  expected << ")";
+           << plan.limit.element << " at " << place_text<Dim>(place);
   std::ostringstream found;
   found.precision(6);
   found << plan.flow.step << " s";

@@ -1,9 +1,10 @@
 #include "formulation/point_checks.hpp"
 
 #include <algorithm>
-#include <sstream>
+#include <string>
 
 #include "common/errors.hpp"
+#include "mesh/place_text.hpp"
 #include "solid/pores.hpp"
 
 namespace suffuse {
@@ -35,12 +36,11 @@ void refuse_points_near_corners(const Case<Dim>& c, const Grid<Dim>& grid,
     if (std::min(*std::ranges::min_element(least), *std::ranges::min_element(filled)) > 0.0) {
       continue;
     }
-    std::ostringstream found;
-    found << "solid points so near the corners of element " << e << " at ("
-          << element_centroid(grid.mesh, e).transpose()
-          << ") that what they erode or catch leaves no pores elsewhere in it";
+    const std::string found = "solid points so near the corners of element " + std::to_string(e) +
+                              " at " + place_text<Dim>(element_centroid(grid.mesh, e)) +
+                              " that what they erode or catch leaves no pores elsewhere in it";
     throw InputError(
-        InputProblem{c.document.locate("points.jitter"), "points", found.str(),
+        InputProblem{c.document.locate("points.jitter"), "points", found,
                      "points nearer to their Gauss positions, with less jitter, or more of them"});
   }
 }

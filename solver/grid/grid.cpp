@@ -2,7 +2,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <sstream>
+#include <string>
+
+#include "mesh/place_text.hpp"
 
 namespace suffuse {
 namespace {
@@ -231,17 +233,13 @@ int obtuse_elements(const Grid<Dim>& grid) {
 
 template <int Dim>
 std::string element_text(const Grid<Dim>& grid, int element) {
-  std::ostringstream text;
-  text << "element " << grid.element_number(element) << " at ("
-       << element_centroid(grid.mesh, element).transpose() << ")";
-  return text.str();
+  return "element " + std::to_string(grid.element_number(element)) + " at " +
+         place_text<Dim>(element_centroid(grid.mesh, element));
 }
 
 template <int Dim>
 std::string node_text(const Grid<Dim>& grid, int node) {
-  std::ostringstream text;
-  text << "at (" << grid.mesh.nodes[node].transpose() << ")";
-  return text.str();
+  return "at " + place_text<Dim>(grid.mesh.nodes[node]);
 }
 
 template struct Grid<2>;

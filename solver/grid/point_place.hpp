@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "grid/grid.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/place_text.hpp"
 
 namespace suffuse {
 
@@ -69,8 +70,8 @@ inline constexpr int max_crossings = 10000;
 template <int Dim>
 [[noreturn]] void refuse_endless(const Grid<Dim>& grid, const PointPlace<Dim>& place, long id) {
   std::ostringstream message;
-  message << "liquid point " << id << " at (" << place.position(grid.mesh).transpose()
-          << ") in element " << place.element << " crosses faces without end; take a shorter step";
+  message << "liquid point " << id << " at " << place_text<Dim>(place.position(grid.mesh))
+          << " in element " << place.element << " crosses faces without end; take a shorter step";
   throw NumericalError(message.str());
 }
 

@@ -7,6 +7,7 @@
 #include "grid/near_element.hpp"
 #include "grid/parallel.hpp"
 #include "grid/section_line.hpp"
+#include "mesh/place_text.hpp"
 
 namespace suffuse {
 namespace {
@@ -18,9 +19,9 @@ constexpr double loosest = 4.0;
 template <int Dim>
 [[noreturn]] void refuse_outside(const Vector<Dim>& from, const Vector<Dim>& to, int point) {
   std::ostringstream message;
-  message << "solid point " << point << " moves from (" << from.transpose() << ") to ("
-          << to.transpose()
-          << "), which is far outside the mesh; make the mesh larger, fix the boundary that it "
+  message << "solid point " << point << " moves from " << place_text<Dim>(from) << " to "
+          << place_text<Dim>(to)
+          << ", which is far outside the mesh; make the mesh larger, fix the boundary that it "
              "passes, or take shorter steps";
   throw NumericalError(message.str());
 }

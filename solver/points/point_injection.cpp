@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "common/errors.hpp"
+#include "mesh/place_text.hpp"
 #include "physics/liquid.hpp"
 #include "points/face_placement.hpp"
 
@@ -137,11 +138,9 @@ void PointInjection<Dim>::inject(InflowAccount& account, const std::vector<doubl
     if (inflow <= 0.0) continue;
     const double point_volume = settings_.point_volume[f];
     if (!(inflow <= max_injected * point_volume)) {
-      const Vector<Dim> at = grid_.face_centre(f);
       std::ostringstream message;
-      message << inflow << " m3 enter in one step at (" << at[0];
-      for (int d = 1; d < Dim; ++d) message << ", " << at[d];
-      message << "), more than " << max_injected
+      message << inflow << " m3 enter in one step at " << place_text<Dim>(grid_.face_centre(f))
+              << ", more than " << max_injected
               << " liquid points hold; look at the boundary conditions and at gravity";
       throw NumericalError(message.str());
     }

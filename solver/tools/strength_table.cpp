@@ -14,6 +14,7 @@
 #include "driver/text_output.hpp"
 #include "files/layout.hpp"
 #include "files/number_text.hpp"
+#include "files/time_unit.hpp"
 #include "physics/skeleton/skeleton_law.hpp"
 #include "results/reader.hpp"
 #include "results/vtkhdf.hpp"
@@ -112,8 +113,9 @@ std::vector<std::size_t> chosen_snapshots(const ResultsReader& results, const st
   }
   if (time.empty()) return {times.size() - 1};
   std::vector<std::size_t> chosen;
-  const std::optional<double> asked = parse_number(time);
-  if (!asked && time != "all") refuse_option("--time", shown_value(time), "a time in s, or all");
+  const std::optional<double> asked = read_time(time);
+  if (!asked && time != "all")
+    refuse_option("--time", shown_value(time), "all, or a time " + time_forms());
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (!asked || std::abs(times[k] - *asked) <= 1e-9 * times.back()) chosen.push_back(k);
   }
@@ -306,9 +308,8 @@ class StrengthTable {
   [[nodiscard]] std::string soil_at(const SoilState<Dim>& state, int point) const {
     std::string text =
         "soil " + shown_value(soils_.soil_of_point(state.id[point]).region) + " at (";
-    for (int k = 0; k < Dim; ++k) {
+    for (int k = 0; k < Dim; ++k)
       text += (k > 0 ? ", " : "") + short_text(state.points.position[point][k]);
-    }
     return text + ')';
   }
 

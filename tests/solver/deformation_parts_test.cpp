@@ -413,7 +413,7 @@ TEST(PointMotion, RefusesAPointThatLeavesTheMeshAndKeepsTheOthers) {
   } catch (const NumericalError& error) {
     EXPECT_STREQ(
         error.what(),
-        "solid point 5 moves from (0.166667 0.833333) to (0.166667  1.28333), which is "
+        "solid point 5 moves from (0.166667, 0.833333) to (0.166667, 1.28333), which is "
         "far outside the mesh; make the mesh larger, fix the boundary that it passes, or take "
         "shorter steps");
   }

@@ -23,7 +23,7 @@ class Rows : public testing::Test {
     HistoryRow row;
     row.t = 12.0;
     row.volume_defect = defect;
-    row.volume_defect_at = "element 7 at (0.5 0.25)";
+    row.volume_defect_at = "element 7 at (0.5, 0.25)";
     return row;
   }
   static HistoryRow with_fines(double share, double concentration) {
@@ -41,13 +41,13 @@ class Rows : public testing::Test {
 /// The warning names place and time and comes once; a liquid that still flows raises none.
 TEST_F(Rows, FinesThatLockAreToldOfOnce) {
   HistoryRow row = with_fines(0.0, 0.6);
-  row.concentration_max_at = "element 7 at (0.5 0.25)";
+  row.concentration_max_at = "element 7 at (0.5, 0.25)";
   EXPECT_EQ(warning(row), "");
   row.concentration_max = 0.64;
   const std::string text = warning(row);
   EXPECT_TRUE(
       text.starts_with("the liquid holds 0.64 of its volume in fines in element 7 at "
-                       "(0.5 0.25) at t = 12 s: "))
+                       "(0.5, 0.25) at t = 12 s: "))
       << text;
   EXPECT_NE(text.find("critical_concentration"), std::string::npos);
   EXPECT_EQ(warning(row), "");
@@ -58,7 +58,7 @@ TEST_F(Rows, AVolumeDefectBeyondChanceIsToldOfOnce) {
   EXPECT_EQ(warning(with_defect(1.4)), "");
   const std::string text = warning(with_defect(3.0));
   EXPECT_EQ(text,
-            "liquid points have 4 times the volume of the pores in element 7 at (0.5 0.25) at t = "
+            "liquid points have 4 times the volume of the pores in element 7 at (0.5, 0.25) at t = "
             "12 s: a volume_defect of 3, where up to 1.4 is usual with liquid_per_element = 12. "
             "Points that come from large elements do not fit into small ones: make the elements "
             "more even, or take more points. Masses stay exact; concentrations there are rough");

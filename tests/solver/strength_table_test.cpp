@@ -602,7 +602,7 @@ TEST(StrengthTable, TheStartIsThatOfTheRunAndTheLastSnapshotIsTheDefault) {
   const Columns moving = w.factors("moving", "--state moving.results --time 0");
   EXPECT_EQ(moving.at("factor"), columns_of(start).at("factor"));
   const std::string last = w.table("moving", "--state moving.results");
-  EXPECT_EQ(last, w.table("moving", "--state moving.results --time 80000"));
+  EXPECT_EQ(last, w.table("moving", "--state moving.results --time 80000s"));
   EXPECT_EQ(columns_of(last).at("t")[0], 8e4);
 }
 
@@ -622,7 +622,8 @@ TEST(StrengthTable, RefusesStatesAndTimesThatDoNotFit) {
             "--time: got 30000, at which moving.results has no snapshot; expected 0, 20000, 40000, "
             "60000 or 80000 s\n");
   EXPECT_EQ(w.refusal(mode + "--state moving.results --time last"),
-            "--time: got \"last\"; expected a time in s, or all\n");
+            "--time: got \"last\"; expected all, or a time in s, or with a unit behind the number, "
+            "\"s\", \"min\", \"h\", \"d\" or \"a\", as 2.5d\n");
   EXPECT_EQ(w.refusal(mode + "--state moving.results --time all --mechanism m.hdf"),
             "--mechanism: got a file beside --time all; expected one time\n");
   EXPECT_EQ(w.refusal(mode + "--state nowhere", 4), "nowhere: no such results folder\n");

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Units of time in which results are shown.
+/// Units of time that users give, and in which results are shown.
 
 #include <optional>
 #include <string>
@@ -18,9 +18,6 @@ struct TimeUnit {
 const std::vector<TimeUnit>& time_units();
 /// A time that a user gives, s: `3600`, `2.5d`, `30 min`; nothing for any other text.
 std::optional<double> read_time(const std::string& text);
-/// `read_time`. Throws InputError, naming `command` and `option`, for a text that is no time.
-double parse_time(const std::string& text, const std::string& command,
-                  const std::string& option = "--time");
 /// "in s, or with a unit behind the number: ...": what messages expect.
 std::string time_forms();
 /// The unit in which times up to `end` (s) are small numbers.

@@ -1,4 +1,4 @@
-#include "values/time_unit.hpp"
+#include "files/time_unit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 
 #include "common/closest_name.hpp"
 #include "files/number_text.hpp"
-#include "values/refusal.hpp"
 
 namespace suffuse {
 
@@ -31,11 +30,6 @@ std::string time_forms() {
   std::vector<std::string> names;
   for (const TimeUnit& unit : time_units()) names.push_back(unit.name);
   return "in s, or with a unit behind the number, " + quoted_list(names) + ", as 2.5d";
-}
-
-double parse_time(const std::string& text, const std::string& command, const std::string& option) {
-  if (const auto time = read_time(text)) return *time;
-  refuse(command, option, '"' + text + '"', "a time " + time_forms());
 }
 
 TimeUnit fitting_time_unit(double end) {
