@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <new>
@@ -367,6 +369,20 @@ ChildLimits limits_for(const std::string& path, double max_seconds) {
   throw std::logic_error("unreachable");
 }
 
+/// Gmsh reads only the first statement of a last line that does not end.
+void refuse_unread_end(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t last = text.rfind('\n') + 1;  // 0 without a line before
+  const std::string line = text.substr(last);
+  if (line.find("//") < line.find(';') || std::ranges::count(line, ';') < 2) return;
+  const auto number = std::ranges::count(text, '\n') + 1;
+  throw InputError(InputProblem{path + ":" + std::to_string(number), "",
+                                "statements on a last line that does not end, of which Gmsh reads "
+                                "the first only",
+                                "a newline at the end of the file", ""});
+}
+
 }  // namespace
 
 GmshReply read_geometry_file(const GeometryRequest& request) {
@@ -380,6 +396,7 @@ GmshReply read_geometry_file(const GeometryRequest& request) {
   if (!fs::is_regular_file(path, ignored)) {
     throw FileError(document.locate("geometry.file") + ": geometry.file: there is no file " + path);
   }
+  if (is_geo_file(path)) refuse_unread_end(path);
   const ChildLimits limits = limits_for(path, request.max_seconds);
   // Gmsh writes files when it starts and ends. It starts before confinement, and never ends.
   std::optional<GmshSession> of_child;

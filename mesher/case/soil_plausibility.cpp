@@ -30,8 +30,12 @@ class Soils : private PlausibilityBase<Dim> {
       check_friction(soil);
       check_cohesion(soil, stress);
       check_stiffness(soil, stress);
+      check_earth_pressure(soil);
     }
-    for (const BoundaryCondition& boundary : scene_.boundaries) check_traction(boundary);
+    for (const BoundaryCondition& boundary : scene_.boundaries) {
+      check_loaded_soil(boundary);
+      check_traction(boundary);
+    }
     return std::move(warnings_);
   }
 
@@ -122,6 +126,22 @@ class Soils : private PlausibilityBase<Dim> {
                   " Pa, which would press the soil together; moduli are in Pa, 1 MPa = 1e6 Pa");
   }
 
+  /// Warns of a K_0 that soil without cohesion cannot have.
+  void check_earth_pressure(const Soil& soil) {
+    if (!scene_.earth_pressure || !soil.skeleton.moves()) return;
+    const SkeletonParameters skeleton = soil.skeleton.at(1.0);
+    if (skeleton.friction == 0.0 || skeleton.cohesion > 0.0) return;
+    const double active = (1.0 - std::sin(skeleton.friction)) / (1.0 + std::sin(skeleton.friction));
+    const double ratio = *scene_.earth_pressure;
+    if (ratio >= active && ratio <= 1.0 / active) return;
+    warn("initial.stress",
+         "K_0 = " + short_number(ratio) + ", and soil \"" + soil.region + "\" yields outside of " +
+             short_number(std::stod(three_digits(active))) + " to " +
+             short_number(std::stod(three_digits(1.0 / active))) +
+             " (Rankine), from the active to the passive earth pressure: it starts at the limit, "
+             "or has no equilibrium");
+  }
+
   /// 1/c_v, mean over the soil that moves, s/m2.
   [[nodiscard]] double consolidation() const {
     double sum = 0.0;
@@ -138,6 +158,24 @@ class Soils : private PlausibilityBase<Dim> {
       volume += part;
     }
     return volume > 0.0 ? sum / volume : 0.0;
+  }
+
+  /// Warns of a traction beside regions without a soil alone.
+  void check_loaded_soil(const BoundaryCondition& b) {
+    if (!b.traction) return;
+    const auto set = std::ranges::find(mesh_.boundaries, b.on, &BoundarySet<Dim>::name);
+    if (set == mesh_.boundaries.end()) return;
+    std::vector<char> of_soil(mesh_.nodes.size(), 0);
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      if (!scene_.find_soil(mesh_.region_names[mesh_.element_region[e]])) continue;
+      for (const int node : mesh_.elements[e]) of_soil[node] = 1;
+    }
+    const auto is_loaded = [&](const auto& face) {
+      return std::ranges::all_of(face, [&](int node) { return of_soil[node] != 0; });
+    };
+    if (std::ranges::any_of(set->faces, is_loaded)) return;
+    warn(joined(b.key, "traction"),
+         "\"" + b.on + "\" lies along no soil: the load acts on nothing");
   }
 
   /// Warns of a traction given as a number, which acts from the start, when the soil is in

@@ -34,6 +34,10 @@ class Times : private PlausibilityBase<Dim> {
 
   std::vector<std::string> run() {
     for (const BoundaryCondition& boundary : scene_.boundaries) check_boundary(boundary);
+    check_comes("output.every", scene_.output.every, "no row between start and end is written");
+    for (const Soil& soil : scene_.soils) {
+      check_comes(joined(table_of(soil), "erosion.start"), soil.erosion.start, "nothing erodes");
+    }
     check_disk();
     return std::move(warnings_);
   }
@@ -43,6 +47,7 @@ class Times : private PlausibilityBase<Dim> {
   using Base::given;
   using Base::mesh_;
   using Base::scene_;
+  using Base::table_of;
   using Base::warn;
   using Base::warnings_;
 
@@ -64,11 +69,19 @@ class Times : private PlausibilityBase<Dim> {
     if (b.traction) check_table(joined(b.key, "traction"), b.traction->knots, course_in_scene);
   }
 
+  /// Warns of a given time that the run does not reach.
+  void check_comes(const std::string& key, double time, const std::string& so) {
+    if (!given(key) || time <= scene_.time.end) return;
+    warn(key, short_number(time) + " s, and the run ends at " + short_number(scene_.time.end) +
+                  " s: " + so);
+  }
+
   template <class Knots>
   void check_table(const std::string& key, const Knots& knots, std::size_t course) {
     if (knots.size() < 2) return;
     const double last = knots.back().first;
     const double end = scene_.time.end;
+    check_comes(key, knots.front().first, "of this table only the first value counts");
     const bool too_long = last > longest_table * end;
     const bool too_short = knots.size() >= course && last > 0.0 && last < shortest_table * end;
     if (!too_long && !too_short) return;

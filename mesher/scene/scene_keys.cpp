@@ -704,9 +704,8 @@ std::vector<SceneKey> declare_keys() {
       key("time.tolerance", at(&Scene::time, &TimeSettings::tolerance),
           "Bound of the local error of a step, relative: of fluxes, of pressures, of what erodes; "
           "where a soil has a `retention`, of the volume of liquid in a wrong place over the "
-          "volume of "
-          "all pores. "
-          "Implicit only, and not with `step`.")
+          "volume of all pores. In a step a boundary value changes by its root, of the range, at "
+          "most. Implicit only, and not with `step`.")
           .above(0.0)
           .at_most(0.1)
           .otherwise(1e-3),

@@ -166,6 +166,12 @@ class SeepageChecks : private SceneCheckBase {
     if (given("initial.construction") && !given("initial.from")) {
       report("initial.construction", "a time without an earlier run",
              "initial.from, or no such key");
+    } else if (given("initial.construction") && !refused("time.end") &&
+               scene_.construction_time() > scene_.time.end) {
+      report("initial.construction", shown_number(scene_.construction_time()) + " s",
+             "at most time.end = " + shown_number(scene_.time.end) +
+                 " s: the run would end before what is dug out or filled in weighs in full",
+             {"time.end"});
     }
     if (given("initial.from")) {
       for (const std::string other : {"initial.flow", "initial.water_level", "initial.stress"}) {

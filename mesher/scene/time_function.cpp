@@ -44,6 +44,14 @@ double TimeFunction::value(double time) const {
   return interpolated(knots, time);
 }
 
+double TimeFunction::slope(double time) const {
+  const auto after =
+      std::ranges::upper_bound(knots, time, {}, [](const auto& knot) { return knot.first; });
+  if (after == knots.begin() || after == knots.end()) return 0.0;
+  const auto before = after - 1;
+  return (after->second - before->second) / (after->first - before->first);
+}
+
 bool TimeFunction::is_constant() const {
   return smallest() == largest();
 }

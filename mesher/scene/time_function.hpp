@@ -16,6 +16,8 @@ struct TimeFunction {
   explicit TimeFunction(std::vector<std::pair<double, double>> pairs) : knots(std::move(pairs)) {}
 
   [[nodiscard]] double value(double time) const;
+  /// Its change per second right after `time`.
+  [[nodiscard]] double slope(double time) const;
   /// Whether the value is the same at all times, given as a number or as a table.
   [[nodiscard]] bool is_constant() const;
   [[nodiscard]] double smallest() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <map>
 
 #include "checks/vertical_lines.hpp"
@@ -70,6 +71,63 @@ std::vector<Boundary> boundaries_of(const ResultsReader& results, const Mesh<Dim
   return boundaries;
 }
 
+/// Normals of the nodes of an element, added; zero if it has none of these nodes.
+template <int Dim>
+Vector<Dim> normal_of(const std::map<int, Vector<Dim>>& normals,
+                      const std::array<int, Dim + 1>& nodes) {
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (const int node : nodes) {
+    if (const auto found = normals.find(node); found != normals.end()) sum += found->second;
+  }
+  return sum;
+}
+
+/// Soil below free water, as at the bottom of a pit that holds water: for each region of free water
+/// two layers of elements of soil at its border. Those of the first are water in part, and have a
+/// smaller gradient.
+template <int Dim>
+std::vector<Boundary> beds_of_free_water(const Scene& scene, const Mesh<Dim>& mesh) {
+  const auto is_water = [&](int e) {
+    return scene.is_free_water(mesh.region_names[mesh.element_region[e]]);
+  };
+  std::map<std::array<int, Dim>, int> region_of_water;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    for (int a = 0; a <= Dim && is_water(e); ++a) {
+      region_of_water[face_key<Dim>(face_opposite<Dim>(mesh.elements[e], a))] =
+          mesh.element_region[e];
+    }
+  }
+  std::map<int, std::map<int, Vector<Dim>>> outward;  // of the nodes of each bed
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    for (int a = 0; a <= Dim && !is_water(e); ++a) {
+      const auto nodes = face_opposite<Dim>(mesh.elements[e], a);
+      const auto found = region_of_water.find(face_key<Dim>(nodes));
+      if (found == region_of_water.end()) continue;
+      const OuterFace face = outer_face<Dim>(mesh, nodes, e);
+      const Vector<Dim> normal = Eigen::Map<const Vector<Dim>>(face.outward.data());
+      for (const int node : nodes) {
+        outward[found->second].try_emplace(node, Vector<Dim>::Zero()).first->second += normal;
+      }
+    }
+  }
+  std::vector<Boundary> beds;
+  for (const auto& [region, of_bed] : outward) {
+    Boundary& bed = beds.emplace_back(Boundary{mesh.region_names[region], {}});
+    std::map<int, Vector<Dim>> normals = of_bed;
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      const Vector<Dim> normal = normal_of<Dim>(of_bed, mesh.elements[e]);
+      if (is_water(e) || normal.isZero()) continue;
+      for (const int node : mesh.elements[e]) normals.try_emplace(node, normal);
+    }
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      const Vector<Dim> normal = normal_of<Dim>(normals, mesh.elements[e]);
+      if (is_water(e) || normal.isZero()) continue;
+      bed.faces.push_back({e, coordinates(element_centroid(mesh, e)), coordinates(normal)});
+    }
+  }
+  return beds;
+}
+
 /// The fields of a snapshot that the safety depends on.
 struct SafetyState {
   double time;
@@ -132,7 +190,10 @@ std::string part_cells(const PartSafety& part, const TimeUnit& unit, int place_w
 
 template <int Dim>
 std::vector<PartSafety> safety_in(const ResultsReader& results, const Mesh<Dim>& mesh) {
-  const std::vector<Boundary> boundaries = boundaries_of(results, mesh);
+  std::vector<Boundary> boundaries = boundaries_of(results, mesh);
+  const std::size_t outer = boundaries.size();
+  std::ranges::move(beds_of_free_water(results.scene().scene, mesh),
+                    std::back_inserter(boundaries));
   std::vector<PartSafety> parts{PartSafety{.name = "all soil"}};
   for (const Boundary& boundary : boundaries) parts.push_back({.name = boundary.name});
   if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
@@ -155,6 +216,9 @@ std::vector<PartSafety> safety_in(const ResultsReader& results, const Mesh<Dim>&
     const auto part = std::ranges::find(parts, boundary.name, &PartSafety::name);
     if (part != parts.end()) part->discharge = boundary.table.column("discharge").back();
   }
+  const auto beds = parts.begin() + static_cast<std::ptrdiff_t>(outer) + 1;
+  parts.erase(std::remove_if(beds, parts.end(), [](const PartSafety& bed) { return !bed.least; }),
+              parts.end());
   return parts;
 }
 

@@ -22,11 +22,12 @@ struct LeastSafety {
   std::vector<double> place{};     ///< coordinates, m
 };
 
-/// A boundary of the scene, or all soil.
+/// A boundary of the scene, a region of free water, or all soil.
 struct PartSafety {
   std::string name;
   /// Least safety; of a boundary over its faces through which water leaves, with the gradient in
-  /// the element at the face. Nothing where water does not rise anywhere.
+  /// the element at the face; of free water over two layers of soil at its border. Nothing where
+  /// water does not rise anywhere.
   std::optional<LeastSafety> least{};
   /// Liquid that leaves through a boundary minus what enters, at the last row of boundaries.csv,
   /// m3/s (per metre of thickness in 2D).
@@ -35,7 +36,8 @@ struct PartSafety {
   std::optional<double> first_below{};
 };
 
-/// All soil first, then the boundaries of the scene. Throws FileError.
+/// All soil first, then the boundaries of the scene, then the regions of free water into which
+/// water rises. Throws FileError.
 std::vector<PartSafety> safety_of(const ResultsReader& results);
 
 /// The safeties as an aligned table, with an explanation.

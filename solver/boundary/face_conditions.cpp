@@ -1,6 +1,8 @@
 #include "boundary/face_conditions.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "common/errors.hpp"
 #include "mesh/water_line.hpp"
@@ -22,9 +24,9 @@ void prescribe_head(double head, DryPart dry, const FaceSurroundings& around,
   }
 }
 
-/// The condition of a boundary at a time, common to its faces: for a head its value is H, for a
-/// rate the total rate.
-FaceCondition condition_of(const BoundaryCondition& boundary, int index, double time) {
+/// The condition of a boundary, common to its faces: for a head its value is H, for a rate the
+/// total rate.
+FaceCondition condition_of(const BoundaryCondition& boundary, int index, const BoundaryTime& time) {
   FaceCondition condition;
   condition.kind = FaceKind::wall;
   condition.boundary = index;
@@ -33,21 +35,21 @@ FaceCondition condition_of(const BoundaryCondition& boundary, int index, double 
     condition.value = value;
   };
   if (boundary.pressure) {
-    prescribe(FaceKind::pressure, boundary.pressure->value(time));
+    prescribe(FaceKind::pressure, boundary.pressure->value(time.end));
   } else if (boundary.velocity) {
-    prescribe(FaceKind::velocity, boundary.velocity->value(time));
+    prescribe(FaceKind::velocity, boundary.velocity->value(time.of_fluxes));
   } else if (boundary.darcy_flux) {
-    prescribe(FaceKind::flux, boundary.darcy_flux->value(time));
+    prescribe(FaceKind::flux, boundary.darcy_flux->value(time.of_fluxes));
   } else if (boundary.head) {
-    prescribe(FaceKind::pressure, boundary.head->value(time));
+    prescribe(FaceKind::pressure, boundary.head->value(time.end));
   } else if (boundary.rate) {
-    prescribe(FaceKind::flux, boundary.rate->value(time));
+    prescribe(FaceKind::flux, boundary.rate->value(time.of_fluxes));
   } else if (boundary.rain) {
-    prescribe(FaceKind::seepage, boundary.rain->value(time));
+    prescribe(FaceKind::seepage, boundary.rain->value(time.of_fluxes));
   } else if (boundary.seepage_face) {
     prescribe(FaceKind::seepage, 0.0);
   }
-  if (boundary.concentration) condition.concentration = boundary.concentration->value(time);
+  if (boundary.concentration) condition.concentration = boundary.concentration->value(time.end);
   return condition;
 }
 
@@ -79,6 +81,9 @@ std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
   }
   return varying;
 }
+
+/// A value that changes by its range in a smaller share of the run jumps.
+constexpr double jump = 1e-6;
 
 /// Free water takes a well's rate as soil of this conductivity would, m/s.
 constexpr double conductivity_of_free_water = 1.0;
@@ -176,7 +181,7 @@ std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& 
   const auto faces = faces_of_boundaries(c, grid);
   for (int b = 0; b < static_cast<int>(faces.size()); ++b) {
     const double conductance = outside.conductance_of(faces[b]);
-    const FaceCondition start = condition_of(scene.boundaries[b], b, 0.0);
+    const FaceCondition start = condition_of(scene.boundaries[b], b, {0.0, 0.0});
     for (const int f : faces[b]) {
       const FaceSurroundings around = outside.of(f, conductance);
       result[f] = at_face(scene.boundaries[b], start, around);
@@ -235,17 +240,18 @@ std::vector<FaceCondition> BoundaryValues<Dim>::at(double time) const {
 
 template <int Dim>
 void BoundaryValues<Dim>::update(double time, std::vector<FaceCondition>& conditions) const {
-  update(time, reservoir_rates(), conditions);
+  update({time, time}, reservoir_rates(), conditions);
 }
 
 template <int Dim>
-void BoundaryValues<Dim>::update(double time, const std::vector<double>& reservoir_rates,
+void BoundaryValues<Dim>::update(const BoundaryTime& time,
+                                 const std::vector<double>& reservoir_rates,
                                  std::vector<FaceCondition>& conditions) const {
   for (const Varying& varying : varying_) {
     FaceCondition now = condition_of(varying.boundary, varying.index, time);
     if (varying.reservoir >= 0) {
       const ReservoirLevel& start = reservoirs_[varying.reservoir];
-      now.value = start.level + reservoir_rates[varying.reservoir] * (time - start.time);
+      now.value = start.level + reservoir_rates[varying.reservoir] * (time.end - start.time);
     }
     for (std::size_t i = 0; i < varying.faces.size(); ++i) {
       const int f = varying.faces[i];
@@ -263,6 +269,19 @@ void BoundaryValues<Dim>::update_concentrations(double time,
     const double now = varying.boundary.concentration->value(time);
     for (const int f : varying.faces) conditions[f].concentration = now;
   }
+}
+
+template <int Dim>
+double BoundaryValues<Dim>::longest_step(double time, double share) const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const Varying& varying : varying_) {
+    for (const TimeFunction& value : varying_values(varying.boundary)) {
+      const auto [low, high] = value.range(0.0, scene_.time.end);
+      const double whole = (high - low) / std::abs(value.slope(time));  // time for the whole range
+      if (whole > jump * scene_.time.end) longest = std::min(longest, share * whole);
+    }
+  }
+  return longest;
 }
 
 template <int Dim>

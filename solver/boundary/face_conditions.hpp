@@ -67,6 +67,18 @@ struct ReservoirLevel {
   double rate = 0.0;                         ///< dH/dt of the last step, m/s
 };
 
+/// When the values of boundaries count in a stage of a step, s.
+struct BoundaryTime {
+  double end = 0.0;        ///< of heads and pressures: the end of the stage
+  double of_fluxes = 0.0;  ///< of fluxes and rain
+
+  /// Of a stage that ends `share` of the step after its start. One stage has the mean flux of the
+  /// step, so that the volume of a table enters; two stages do so with their own fluxes.
+  static BoundaryTime of_stage(double start, double dt, double share, bool is_only) {
+    return {start + share * dt, start + (is_only ? 0.5 : share) * dt};
+  }
+};
+
 /// Boundary conditions that change in time. The kind of a face changes when the level of a head
 /// passes it; such faces have `switches`.
 template <int Dim>
@@ -81,11 +93,15 @@ class BoundaryValues {
   /// only faces of boundaries whose values change in time.
   void update(double time, std::vector<FaceCondition>& conditions) const;
   /// Likewise, with levels of reservoirs that have risen at these rates since the last step, m/s.
-  void update(double time, const std::vector<double>& reservoir_rates,
+  void update(const BoundaryTime& time, const std::vector<double>& reservoir_rates,
               std::vector<FaceCondition>& conditions) const;
   /// Sets only the concentrations to those at `time`. Liquid that enters during an interval has the
   /// concentration at mid-interval, which is the mean of a linear concentration.
   void update_concentrations(double time, std::vector<FaceCondition>& conditions) const;
+
+  /// Longest step from `time` in which no value changes by more than this share of its range, but
+  /// for jumps, s.
+  [[nodiscard]] double longest_step(double time, double share) const;
 
   /// How fast the level of each reservoir rose in the last step, m/s.
   [[nodiscard]] std::vector<double> reservoir_rates() const;

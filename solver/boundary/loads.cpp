@@ -61,6 +61,22 @@ void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
 }
 
 template <int Dim>
+std::vector<Vector<Dim>> unit_weights(const SolidPoints<Dim>& points,
+                                      const std::vector<double>& soil_volume, const SoilMass& mass,
+                                      const std::array<double, 3>& gravity) {
+  const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(gravity.data());
+  std::vector<double> solid(soil_volume.size(), 0.0);
+  for (int p = 0; p < points.size(); ++p) solid[points.element[p]] += mass.solid[p];
+  std::vector<Vector<Dim>> result(solid.size(), Vector<Dim>::Zero());
+  for (std::size_t e = 0; e < solid.size(); ++e) {
+    if (soil_volume[e] == 0.0) continue;
+    const double liquid = mass.liquid.empty() ? 0.0 : mass.liquid[e];
+    result[e] = (solid[e] / soil_volume[e] + liquid) * g;
+  }
+  return result;
+}
+
+template <int Dim>
 int soil_beside(const Grid<Dim>& grid, const PointsByElement& sorted, int face) {
   const bool left = grid.is_outer(face) || !sorted.is_empty(grid.face_left[face]);
   return left ? grid.face_left[face] : grid.face_right[face];
@@ -181,6 +197,10 @@ template Vector<2> downwards<2>(const std::array<double, 3>&);
 template Vector<3> downwards<3>(const std::array<double, 3>&);
 template void add_weight(const Grid<2>&, const SolidPoints<2>&, const std::vector<double>&,
                          const SoilMass&, const std::array<double, 3>&, NodalLoads<2>&);
+template std::vector<Vector<2>> unit_weights(const SolidPoints<2>&, const std::vector<double>&,
+                                             const SoilMass&, const std::array<double, 3>&);
+template std::vector<Vector<3>> unit_weights(const SolidPoints<3>&, const std::vector<double>&,
+                                             const SoilMass&, const std::array<double, 3>&);
 template int soil_beside(const Grid<2>&, const PointsByElement&, int);
 template std::vector<char> nodes_of_soil(const Grid<2>&, const PointsByElement&);
 template void add_weight(const Grid<3>&, const SolidPoints<3>&, const std::vector<double>&,

@@ -22,12 +22,26 @@ struct SoilMass {
   std::vector<double> liquid;  ///< per volume of soil and element, kg/m3; empty: none
 };
 
+/// Loads on the nodes, N, and the unit weight of soil with its water per element, N/m3.
+template <int Dim>
+struct SoilLoads {
+  NodeVectors<Dim> forces;
+  std::vector<Vector<Dim>> weight;
+};
+
 /// Adds the weight of the solid at its points and of the liquid in its pores, N.
 /// \param soil_volume  see `soil_volumes`; `gravity` in m/s2
 template <int Dim>
 void add_weight(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                 const std::vector<double>& soil_volume, const SoilMass& mass,
                 const std::array<double, 3>& gravity, NodalLoads<Dim>& loads);
+
+/// Unit weight of the soil with its water per element, N/m3: what `add_weight` adds over the volume
+/// of the soil; 0 without soil.
+template <int Dim>
+std::vector<Vector<Dim>> unit_weights(const SolidPoints<Dim>& points,
+                                      const std::vector<double>& soil_volume, const SoilMass& mass,
+                                      const std::array<double, 3>& gravity);
 
 /// The element with soil at a face; at the border of the mesh the only one.
 template <int Dim>

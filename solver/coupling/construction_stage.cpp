@@ -30,6 +30,7 @@ void add_point(const ChosenPoint<Dim>& chosen, MovedSoil<Dim>& to) {
     add_value(from->points.*member, p, to.points.*member);
   };
   add_each(&MovedSoil<Dim>::region);
+  add_each(&MovedSoil<Dim>::skeleton);
   add_each(&MovedSoil<Dim>::initial_porosity);
   add_each(&MovedSoil<Dim>::initial_erodible);
   add_solid(&SolidState::skeleton_volume);
@@ -54,14 +55,33 @@ std::vector<double> solid_of_points(const MovedSoil<Dim>& soil, std::size_t elem
   return result;
 }
 
+/// The elastic strains of the points with which they keep their stresses under the laws of `scene`.
+template <int Dim>
+void keep_stresses(const Scene& scene, const Mesh<Dim>& mesh, MovedSoil<Dim>& soil) {
+  for (int p = 0; p < soil.points.size(); ++p) {
+    const Soil* given = scene.find_soil(mesh.region_names[soil.region[p]]);
+    const auto& [law, then] = soil.skeleton[p];
+    if (!law || !given || !given->skeleton.moves()) continue;
+    const double erodible = soil.initial_erodible[p];
+    const double left = erodible > 0.0 ? soil.state.erodible_volume[p] / erodible : 1.0;
+    const SkeletonParameters now = given->skeleton.at(left);
+    if (now.young == then.young && now.poisson == then.poisson) continue;
+    SkeletonState& state = soil.points.skeleton[p];
+    const auto response =
+        skeleton_response<Dim>(*law, then, state, Eigen::Matrix<double, Dim, Dim>::Identity());
+    state.elastic_b = elastic_b_under(now, response.stress);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
-NextStage<Dim> next_stage(const Mesh<Dim>& mesh, const MovedSoil<Dim>& fresh,
+NextStage<Dim> next_stage(const Scene& scene, const Mesh<Dim>& mesh, const MovedSoil<Dim>& fresh,
                           const MovedSoil<Dim>& earlier) {
   NextStage<Dim> stage;
   if (fresh.has_soil == earlier.has_soil) {
     stage.soil = earlier;
+    keep_stresses(scene, mesh, stage.soil);
     return stage;
   }
   const auto changes = [&](int region) {
@@ -81,6 +101,7 @@ NextStage<Dim> next_stage(const Mesh<Dim>& mesh, const MovedSoil<Dim>& fresh,
   std::ranges::stable_sort(
       chosen, {}, [](const ChosenPoint<Dim>& c) { return c.from->points.element[c.point]; });
   for (const ChosenPoint<Dim>& point : chosen) add_point(point, stage.soil);
+  keep_stresses(scene, mesh, stage.soil);
   const std::vector<double> left = solid_of_points(stage.soil, loses.size());
   stage.soil.has_soil = fresh.has_soil;
   stage.soil.pressure = earlier.pressure;
@@ -116,8 +137,10 @@ void fill_pores(const Grid<Dim>& grid, const FlowSoils<Dim>& soils, const Liquid
   }
 }
 
-template NextStage<2> next_stage(const Mesh<2>&, const MovedSoil<2>&, const MovedSoil<2>&);
-template NextStage<3> next_stage(const Mesh<3>&, const MovedSoil<3>&, const MovedSoil<3>&);
+template NextStage<2> next_stage(const Scene&, const Mesh<2>&, const MovedSoil<2>&,
+                                 const MovedSoil<2>&);
+template NextStage<3> next_stage(const Scene&, const Mesh<3>&, const MovedSoil<3>&,
+                                 const MovedSoil<3>&);
 
 template void fill_pores(const Grid<2>&, const FlowSoils<2>&, const LiquidProperties&,
                          const std::vector<double>&, const EarlierFlow<2>&, const std::vector<int>&,

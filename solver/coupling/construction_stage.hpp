@@ -20,9 +20,10 @@ struct NextStage {
 /// Digs out of `earlier` the regions that have no soil any more, and what came from them; fills
 /// regions that had none with the soil of `fresh`, which has its places, volumes and porosities of
 /// a new run and no stress. Earlier soil in a region that is filled is dug out first. Without such
-/// a region the soil is that of `earlier`.
+/// a region the soil is that of `earlier`. All soil keeps its stress under the laws of `scene`,
+/// that of the next run.
 template <int Dim>
-NextStage<Dim> next_stage(const Mesh<Dim>& mesh, const MovedSoil<Dim>& fresh,
+NextStage<Dim> next_stage(const Scene& scene, const Mesh<Dim>& mesh, const MovedSoil<Dim>& fresh,
                           const MovedSoil<Dim>& earlier);
 
 /// What is in the pores of each element.

@@ -98,6 +98,21 @@ Equilibrium<Dim>::Equilibrium(const SolidBody<Dim>& body, const Supports<Dim>& s
   }
   least_force_ = this->least_strain * std::sqrt(sum);
   dilatation_ = SharedDilatation<Dim>(body.grid, sharing_volumes(body, supports, soil_volume_));
+  if (!body.weight.empty()) set_weight(body.weight);
+}
+
+template <int Dim>
+void Equilibrium<Dim>::set_pressure(std::vector<double> pressure, std::vector<double> stiffness) {
+  pressure_ = std::move(pressure);
+  stiffness_ = std::move(stiffness);
+  if (variation_.empty()) return;
+  if (pressure_.empty()) pressure_.assign(variation_.size(), 0.0);
+  std::vector<double> of_patch = pressure_;
+  dilatation_.average(of_patch);
+  for (const int e : elements_) {
+    const double soil = soil_volume_[e] / body_.grid.volume[e];
+    pressure_[e] += soil * (of_patch[e] - pressure_[e] + variation_[e]);
+  }
 }
 
 template <int Dim>

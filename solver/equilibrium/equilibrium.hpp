@@ -50,6 +50,8 @@ struct SolidBody {
   const std::vector<PointSkeleton>& skeleton;  ///< per point
   const ElementClasses& classes;
   SoftStiffness soft = {};
+  /// Unit weight of soil with its water per element, N/m3; empty: none.
+  std::vector<Vector<Dim>> weight = {};
 };
 
 /// Elements with points, ascending.
@@ -91,9 +93,13 @@ class Equilibrium final : public ForceBalance<Dim> {
   [[nodiscard]] const DisplacementUnknowns<Dim>& unknowns() const override { return unknowns_; }
   /// Pore pressure per element, Pa; empty: none.
   /// \param stiffness  the pressure falls by this times J - 1, per element, Pa; empty: by nothing
-  void set_pressure(std::vector<double> pressure, std::vector<double> stiffness = {}) {
-    pressure_ = std::move(pressure);
-    stiffness_ = std::move(stiffness);
+  void set_pressure(std::vector<double> pressure, std::vector<double> stiffness = {});
+  /// Unit weight of soil with its water, N/m3 per element, for `set_pressure`. A patch has one mean
+  /// effective stress; about that the total stress varies within the patch as below level ground.
+  /// Without this variation the patches of level soil bear their weight by shear stresses, which
+  /// weak soil does not have.
+  void set_weight(const std::vector<Vector<Dim>>& weight) {
+    if (dilatation_.acts()) variation_ = dilatation_.variation(body_.grid.mesh, weight);
   }
 
   /// Inertia over a step of `dt`, s: the mass of each node, kg, and its velocity at the start, m/s.
@@ -176,7 +182,8 @@ class Equilibrium final : public ForceBalance<Dim> {
   int threads_;
   std::vector<int> elements_;  ///< those with points
   DisplacementUnknowns<Dim> unknowns_;
-  std::vector<double> pressure_;
+  std::vector<double> pressure_;   ///< with the variation of the total stress in patches
+  std::vector<double> variation_;  ///< of the total stress in patches, per element, Pa
   std::vector<double> stiffness_;
   std::vector<double> inertia_;    ///< M/dt^2 per node, N/m; empty: none
   NodeVectors<Dim> coasting_;      ///< dt v* per node, m

@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
-#include "equilibrium/stiffness_pattern.hpp"
+#include "solid/stiffness_pattern.hpp"
 
 namespace suffuse {
 

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "equilibrium/stiffness_pattern.hpp"
 #include "linear/newton_system.hpp"
+#include "solid/stiffness_pattern.hpp"
 
 namespace suffuse {
 

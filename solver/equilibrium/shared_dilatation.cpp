@@ -51,6 +51,27 @@ void SharedDilatation<Dim>::average(std::vector<double>& ratio) const {
 }
 
 template <int Dim>
+std::vector<double> SharedDilatation<Dim>::variation(const Mesh<Dim>& mesh,
+                                                     const std::vector<Vector<Dim>>& weight) const {
+  std::vector<double> result(weight.size(), 0.0);
+  for (int d = 0; d < Dim; ++d) {
+    std::vector<double> of_patch(weight.size());
+    std::vector<double> place(weight.size());
+    for (std::size_t e = 0; e < weight.size(); ++e) {
+      of_patch[e] = weight[e][d];
+      place[e] = element_centroid(mesh, static_cast<int>(e))[d];
+    }
+    std::vector<double> middle = place;
+    average(of_patch);
+    average(middle);
+    for (std::size_t e = 0; e < weight.size(); ++e) {
+      result[e] += of_patch[e] * (place[e] - middle[e]);
+    }
+  }
+  return result;
+}
+
+template <int Dim>
 std::vector<double> SharedDilatation<Dim>::spread(const std::vector<double>& mean) const {
   std::vector<double> result(mean.size(), 0.0);
   for (const Patch& patch : patches_) {

@@ -25,6 +25,8 @@ class StepEquilibrium {
   StepEquilibrium(const StepEquilibrium&) = delete;
   StepEquilibrium& operator=(const StepEquilibrium&) = delete;
 
+  /// See `Equilibrium::set_weight`.
+  void set_weight(const std::vector<Vector<Dim>>& weight) { equilibrium_.set_weight(weight); }
   /// Finds the displacement over the step, starting from the last solution. Returns false if there
   /// is none.
   /// \param loads     per node, N

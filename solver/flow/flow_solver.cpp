@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "boundary/suction.hpp"
 #include "common/errors.hpp"
 #include "common/short_number.hpp"
 #include "grid/parallel.hpp"
@@ -200,31 +200,14 @@ void FlowSolver<Dim>::prescribe_at_nodes(const std::vector<double>& face_pressur
 }
 
 template <int Dim>
-void FlowSolver<Dim>::warn_of_suction(double time) {
-  constexpr double noticed = -5000.0;  // Pa
+void FlowSolver<Dim>::check_suction(double time) {
+  const PressuresAt now{time, pressure()};
+  refuse_dry_outflow(grid_, soils_, conditions_, now);
   if (suction_warned_ || gravity().norm() == 0.0) return;
-  const std::vector<double>& p = pressure();
-  int lowest = -1;
-  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    if (p[e] >= noticed || !soils_.is_soil(e) || soils_.soil_of_element(e).drains()) continue;
-    if (lowest < 0 || p[e] < p[lowest]) lowest = e;
-  }
-  const double here = lowest < 0 ? 0.0 : p[lowest];
-  const double least = smallest_of_all(grid_.ranks(), here);
-  if (least == 0.0) return;
+  std::string warning = suction_warning(grid_, soils_, now);
+  if (warning.empty()) return;
   suction_warned_ = true;
-  warn(grid_.ranks().first_text(here == least ? suction_text(lowest, time) : ""));
-}
-
-template <int Dim>
-std::string FlowSolver<Dim>::suction_text(int element, double time) const {
-  std::ostringstream message;
-  message.precision(3);
-  message << "soil \"" << soils_.soil_of_element(element).region << "\" is full of water under "
-          << "suction: " << pressure()[element] << " Pa in " << element_text(grid_, element)
-          << " at t = " << time << " s; real soil drains and conducts less: give it a [soil."
-          << soils_.soil_of_element(element).region << ".retention]";
-  return message.str();
+  warn(std::move(warning));
 }
 
 template <int Dim>

@@ -118,6 +118,11 @@ class FlowSolver {
   /// Sets the length of the next step to try, s, whatever was planned.
   virtual void plan_step(double /*dt*/) {}
 
+  /// Longest step from `time` in which boundary values change so little that the mean flux of the
+  /// step stands for the flux in it, s: by the root of the tolerance, whose square is an error.
+  [[nodiscard]] double longest_of_boundaries(double time) const {
+    return boundary_values_.longest_step(time, std::sqrt(scene_.time.tolerance));
+  }
   /// Pressure per element, Pa.
   [[nodiscard]] virtual const std::vector<double>& pressure() const = 0;
   /// Volume of air per element, m3; empty where all soil is saturated.
@@ -146,8 +151,9 @@ class FlowSolver {
   virtual void archive(StateArchive& archive);
 
   /// Adds a warning, once, where soil without retention is under suction; `time` in s. Not without
-  /// gravity, where pressures may be negative. All ranks have to call it.
-  void warn_of_suction(double time);
+  /// gravity, where pressures may be negative. Throws as `refuse_dry_outflow` does. All ranks have
+  /// to call it.
+  void check_suction(double time);
   /// The warnings since the last call.
   [[nodiscard]] std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
@@ -209,8 +215,6 @@ class FlowSolver {
   /// n_0 of the soil that an element holds now.
   [[nodiscard]] double start_porosity(int element) const;
   [[nodiscard]] SurfaceSoil surface_soil(int element, double porosity) const;
-  /// The warning of suction in an element.
-  [[nodiscard]] std::string suction_text(int element, double time) const;
 
   std::vector<double> breakpoints_;
   std::vector<double> kinks_;

@@ -278,16 +278,15 @@ void ImplicitFlow<Dim>::set_forcing(const FlowInterval<Dim>& interval, FlowStep<
   if (relaxation_.active()) source = relaxation_.next_source(step.dt, filling_time());
   for (std::size_t stage = 0; stage < shares.size(); ++stage) {
     FlowForcing<Dim>& forcing = step.forcing[stage];
-    const double time = step.start + shares[stage] * step.dt;
-    const double before = just_before(interval.start, time);
+    const double before = just_before(interval.start, step.start + shares[stage] * step.dt);
     forcing.coefficients =
         follows_pores_ ? coefficients_at(before, interval.pores.at(before)) : this->coefficients_;
-    blending_.blend(time - step.start, this->coefficients_, forcing.coefficients);
-    if (scheme_.soils().air_moves()) {
-      keep_pores(this->coefficients_.porosity, forcing.coefficients);
-    }
+    blending_.blend(shares[stage] * step.dt, this->coefficients_, forcing.coefficients);
+    if (scheme_.soils().air_moves()) keep_pores(this->coefficients_.porosity, forcing.coefficients);
     if (forcing.conditions.empty()) forcing.conditions = this->conditions_;
-    this->boundary_values().update(time, step.reservoir_rates, forcing.conditions);
+    this->boundary_values().update(
+        BoundaryTime::of_stage(step.start, step.dt, shares[stage], shares.size() == 1),
+        step.reservoir_rates, forcing.conditions);
     forcing.source = source;
   }
 }

@@ -13,8 +13,7 @@ template <int Dim>
 double fines_weight_share(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                           const FlowState<Dim>& state, const Scene& scene) {
   if (!has_gravity(scene.gravity)) return 0.0;
-  Vector<Dim> gravity;
-  for (int d = 0; d < Dim; ++d) gravity[d] = scene.gravity[d];
+  const Vector<Dim> gravity = Eigen::Map<const Vector<Dim>>(scene.gravity.data());
   const std::vector<Vector<Dim>> flux = element_flux(grid, state.face_flux);
   ExactSum weight;  // W
   ExactSum spent;   // W, by drag
@@ -71,6 +70,7 @@ template <int Dim>
 SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                            const FlowState<Dim>& flow, const Scene& scene) {
   const double weight = unit_weight(scene.liquid.density, scene.gravity);
+  const double of_initial = scene.liquid.density * conductivity_gravity;
   const VectorField<Dim> gradient = hydraulic_gradient(grid, flow, scene);
   ExactSum now;
   ExactSum saturated;
@@ -80,8 +80,9 @@ SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
     const Vector<Dim> flux = flux_at(grid, flow.face_flux, e, element_centroid(grid.mesh, e));
     now.add(weight * grid.volume[e] * flux.dot(gradient[e]));
     if (!flow.relative_conductivity.empty() && flow.relative_conductivity[e] < 1.0) continue;
+    if (flux.norm() <= soils.still_flux(e)) continue;
     saturated.add(weight * grid.volume[e] * flux.dot(gradient[e]));
-    initial.add(weight * grid.volume[e] * flux.squaredNorm() * soils.resistance_along(e, flux) /
+    initial.add(of_initial * grid.volume[e] * flux.squaredNorm() * soils.resistance_along(e, flux) /
                 (soils.conductivity_factor(e) * soils.soil_of_element(e).conductivity));
   }
   grid.ranks().sum({&now, &saturated, &initial});

@@ -36,10 +36,10 @@ void TwoPhaseModel<Dim>::archive(StateArchive& archive) {
 template <int Dim>
 double TwoPhaseModel<Dim>::coupling_interval() const {
   const auto limits = flow_->coupling_limits();
-  double longest = std::numeric_limits<double>::infinity();
+  double longest = flow_->longest_of_boundaries(time_);
   if (options_.transport) {
-    longest = transport().longest_step(flux_history_.mean);
-    if (!limits.one_transport_step) longest *= transport().coupling().steps;
+    const double steps = limits.one_transport_step ? 1.0 : transport().coupling().steps;
+    longest = std::min(longest, steps * transport().longest_step(flux_history_.mean));
   }
   const bool changes = solid_->exchanges_within(time_, std::numeric_limits<double>::infinity());
   if (limits.follows_pores || !changes) return longest;
@@ -89,7 +89,7 @@ std::vector<int> TwoPhaseModel<Dim>::start_solid(const EarlierState<Dim>& earlie
     return {};
   }
   MovingSkeleton<Dim>& moving = *solid_phase_.moving;
-  NextStage<Dim> stage = next_stage(grid_.mesh, moving.moved(), *earlier.moved);
+  NextStage<Dim> stage = next_stage(scene(), grid_.mesh, moving.moved(), *earlier.moved);
   moving.start_from(std::move(stage.soil));
   return stage.changed;
 }
@@ -97,7 +97,7 @@ std::vector<int> TwoPhaseModel<Dim>::start_solid(const EarlierState<Dim>& earlie
 template <int Dim>
 void TwoPhaseModel<Dim>::start_flux_history() {
   flux_history_.mean = flux_history_.end = flow_->face_flux(0.0);
-  flow_->warn_of_suction(0.0);
+  flow_->check_suction(0.0);
 }
 
 template <int Dim>
@@ -117,7 +117,7 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   masses_.book_liquid(flow.volumes.liquid);
   observations_.book_liquid(flow.volumes.liquid);
   steps_ += flow.steps;
-  flow_->warn_of_suction(flow.end);
+  flow_->check_suction(flow.end);
   last_dt_ = flow.dt;
 }
 
@@ -199,8 +199,7 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   ExactSum pores;
   ExactSum volume;
   for (const int p : soils_.points_of(grid_.own_elements())) {
-    const bool changes = soils_.exchange_of_point(p).exchanges();
-    if (any_changes && !changes) continue;
+    if (any_changes && !soils_.exchange_of_point(p).exchanges()) continue;
     pores.add(points.volume[p] * solid_->porosity()[p]);
     volume.add(points.volume[p]);
   }

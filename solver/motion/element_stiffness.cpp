@@ -9,6 +9,17 @@
 namespace suffuse {
 
 template <int Dim>
+std::vector<double> oedometer_moduli(const SoilMap<Dim>& soils,
+                                     const std::vector<PointSkeleton>& skeleton) {
+  std::vector<double> result(skeleton.size(), 0.0);
+  for (std::size_t p = 0; p < skeleton.size(); ++p) {
+    if (!soils.soil_of_point(static_cast<int>(p)).skeleton.moves()) continue;
+    result[p] = skeleton[p].parameters.oedometer_modulus();
+  }
+  return result;
+}
+
+template <int Dim>
 std::vector<double> drained_compressibility(const Grid<Dim>& grid, const SolidPoints<Dim>& points,
                                             const std::vector<double>& modulus,
                                             bool has_free_water) {
@@ -72,6 +83,8 @@ std::vector<SoilFilling> soil_filling(const Grid<Dim>& grid, const ElementClasse
   return result;
 }
 
+template std::vector<double> oedometer_moduli(const SoilMap<2>&, const std::vector<PointSkeleton>&);
+template std::vector<double> oedometer_moduli(const SoilMap<3>&, const std::vector<PointSkeleton>&);
 template std::vector<double> drained_compressibility(const Grid<2>&, const SolidPoints<2>&,
                                                      const std::vector<double>&, bool);
 template std::vector<double> drained_compressibility(const Grid<3>&, const SolidPoints<3>&,

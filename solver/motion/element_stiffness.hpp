@@ -5,11 +5,17 @@
 
 #include <vector>
 
+#include "equilibrium/equilibrium.hpp"
 #include "solid/element_classes.hpp"
 #include "solid/skeleton.hpp"
 #include "solid/solid_points.hpp"
 
 namespace suffuse {
+
+/// E_oed per point, Pa; 0 if it does not move.
+template <int Dim>
+std::vector<double> oedometer_moduli(const SoilMap<Dim>& soils,
+                                     const std::vector<PointSkeleton>& skeleton);
 
 /// V_e / E_oed, m3/Pa; in free water next to soil, with E_oed of the softest soil; 0 elsewhere
 /// without moving soil.

@@ -19,6 +19,7 @@ struct MovedSoil {
   std::vector<char> has_soil = {};  ///< per region of the mesh: whether the scene gives it a soil
   SolidState state;
   SolidPoints<Dim> points;               ///< sorted by element
+  std::vector<PointSkeleton> skeleton;   ///< per point: its law at the end of the run
   std::vector<int> region;               ///< per point: region that it comes from
   std::vector<double> initial_porosity;  ///< per point, of the first of all runs
   std::vector<double> initial_erodible;  ///< per point, m3, of the first of all runs

@@ -14,6 +14,7 @@
 #include "motion/point_spacing.hpp"
 #include "motion/start_stress.hpp"
 #include "physics/head.hpp"
+#include "solid/hole_filling.hpp"
 #include "solid/pores.hpp"
 
 namespace suffuse {
@@ -95,9 +96,8 @@ MovingSkeleton<Dim>::MovingSkeleton(const Grid<Dim>& grid, SoilMap<Dim>& soils,
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::element_porosity() const {
   std::vector<double> result(solid_.size());
-  for (std::size_t e = 0; e < solid_.size(); ++e) {
+  for (std::size_t e = 0; e < solid_.size(); ++e)
     result[e] = 1.0 - solid_[e] / this->grid_.volume[e];
-  }
   return result;
 }
 
@@ -105,9 +105,7 @@ std::vector<double> MovingSkeleton<Dim>::element_porosity() const {
 
 template <int Dim>
 void MovingSkeleton<Dim>::add_to_elements(const std::vector<double>& volume, double factor) {
-  for (std::size_t p = 0; p < volume.size(); ++p) {
-    solid_[points_.element[p]] += factor * volume[p];
-  }
+  for (std::size_t p = 0; p < volume.size(); ++p) solid_[points_.element[p]] += factor * volume[p];
 }
 
 template <int Dim>
@@ -161,8 +159,7 @@ std::vector<PointSkeleton> MovingSkeleton<Dim>::skeletons(const std::vector<doub
   std::vector<PointSkeleton> result;
   result.reserve(points_.size());
   for (int p = 0; p < points_.size(); ++p) {
-    const double lost = loss.empty() ? 0.0 : loss[p];
-    const double left = this->state_.erodible_volume[p] - lost;
+    const double left = this->state_.erodible_volume[p] - (loss.empty() ? 0.0 : loss[p]);
     result.push_back(skeleton_of(p, share_left(p, left)));
   }
   return result;
@@ -178,43 +175,34 @@ Eigen::Matrix3d MovingSkeleton<Dim>::effective_stress(int point) const {
 }
 
 template <int Dim>
-std::vector<double> MovingSkeleton<Dim>::moduli() const {
-  std::vector<double> result(points_.size(), 0.0);
-  for (int p = 0; p < points_.size(); ++p) {
-    if (!this->soils().soil_of_point(p).skeleton.moves()) continue;
-    result[p] = skeleton_of(p, fines_left(p)).parameters.oedometer_modulus();
-  }
-  return result;
-}
-
-template <int Dim>
 double MovingSkeleton<Dim>::stiffness() const {
-  const std::vector<double> modulus = moduli();
+  const std::vector<double> modulus = oedometer_moduli(this->soils(), skeletons({}));
   return modulus.empty() ? 0.0 : std::ranges::max(modulus);
 }
 
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::drained_compressibility() const {
-  return suffuse::drained_compressibility(this->grid_, points_, moduli(), has_free_water_);
+  const std::vector<double> modulus = oedometer_moduli(this->soils(), skeletons({}));
+  return suffuse::drained_compressibility(this->grid_, points_, modulus, has_free_water_);
 }
 
 template <int Dim>
 std::vector<double> MovingSkeleton<Dim>::solid_masses(const std::vector<double>& loss) const {
   std::vector<double> mass = this->state_.solid_volumes();
   for (int p = 0; p < points_.size(); ++p) {
-    const double lost = loss.empty() ? 0.0 : loss[p];
-    mass[p] = (mass[p] - lost) * this->soils().soil_of_point(p).grain_density;
+    if (!loss.empty()) mass[p] -= loss[p];
+    mass[p] *= this->soils().soil_of_point(p).grain_density;
   }
   return mass;
 }
 
 /// Weight of solid and liquid, loads of boundaries, and the pressure of free water.
 template <int Dim>
-NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
-                                            const std::vector<double>& solid_mass,
-                                            const std::vector<double>& pressure,
-                                            const PointsByElement& sorted,
-                                            const ElementClasses& classes) const {
+SoilLoads<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
+                                          const std::vector<double>& solid_mass,
+                                          const std::vector<double>& pressure,
+                                          const PointsByElement& sorted,
+                                          const ElementClasses& classes) const {
   const SoilMap<Dim>& soils = this->soils();
   const SoilMass mass{.solid = solid_mass, .liquid = forcing.liquid_mass};
   NodalLoads<Dim> result(this->grid_);
@@ -226,7 +214,7 @@ NodeVectors<Dim> MovingSkeleton<Dim>::loads(const MotionForcing& forcing,
     add_free_water(this->grid_, sorted, volume, pressure, forcing.liquid_mass,
                    soils.scene().gravity, result);
   }
-  return std::move(result.forces());
+  return {std::move(result.forces()), unit_weights(points_, volume, mass, soils.scene().gravity)};
 }
 
 template <int Dim>
@@ -237,8 +225,10 @@ StartStress MovingSkeleton<Dim>::start_motion(const std::vector<double>& pressur
   const Scene& scene = this->soils().scene();
   const MotionForcing at_rest{.liquid_mass = liquid_mass};
   pressure_ = pressure;
+  SoilLoads<Dim> found = loads(at_rest, solid_masses({}), pressure, sorted, classes);
   return find_start_stress(this->grid_, skeletons({}), supports_,
-                           {.forces = loads(at_rest, solid_masses({}), pressure, sorted, classes),
+                           {.forces = std::move(found.forces),
+                            .weight = std::move(found.weight),
                             .pressure = pressure,
                             .gravity = scene.gravity,
                             .earth_pressure = scene.earth_pressure},
@@ -292,8 +282,10 @@ void MovingSkeleton<Dim>::prepare(MotionStep<Dim>& step) const {
 template <int Dim>
 void MovingSkeleton<Dim>::load(MotionStep<Dim>& step, const std::vector<double>& pressure) const {
   step.pressure = pressure;
-  step.loads = loads(step.forcing, solid_masses(step.loss), pressure, step.equilibrium->sorted(),
-                     step.equilibrium->classes());
+  SoilLoads<Dim> found = loads(step.forcing, solid_masses(step.loss), pressure,
+                               step.equilibrium->sorted(), step.equilibrium->classes());
+  step.loads = std::move(found.forces);
+  step.equilibrium->set_weight(found.weight);
   step.motion = {};
 }
 
@@ -342,6 +334,7 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
   move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(),
               equilibrium.law_increments(), points_, this->threads_);
   if (inertia_.acts()) space_points(this->grid_, supports_, equilibrium.displacement(), points_);
+  if (!inertia_.acts()) fill_holes(this->grid_, supports_, points_, start_);
   SoilKinetics found;
   if (!inertia_.acts()) {
     found = kinetics(step, place);
@@ -367,13 +360,14 @@ void MovingSkeleton<Dim>::find_crossing_forces(const MotionStep<Dim>& step) {
                          supports_, this->threads_);
   std::vector<double> porosity = this->state_.solid_volumes();
   for (int p = 0; p < points_.size(); ++p) porosity[p] = 1.0 - porosity[p] / points_.volume[p];
+  const SoilLoads<Dim> found =
+      loads(step.forcing, solid_masses(step.loss), step.pressure, sorted, classes);
+  moved.set_weight(found.weight);
   moved.set_pressure(step.pressure);
   moved.displace(NodeVectors<Dim>(this->grid_.mesh.node_count(), Vector<Dim>::Zero()), false);
-  crossing_forces_.find(
-      this->grid_, sorted, moved,
-      loads(step.forcing, solid_masses(step.loss), step.pressure, sorted, classes),
-      diffusivity(this->grid_, this->soils(), sorted, drained_compressibility(),
-                  this->initial_porosity_, porosity));
+  crossing_forces_.find(this->grid_, sorted, moved, found.forces,
+                        diffusivity(this->grid_, this->soils(), sorted, drained_compressibility(),
+                                    this->initial_porosity_, porosity));
 }
 
 template <int Dim>

@@ -11,11 +11,11 @@
 #include "equilibrium/construction_forces.hpp"
 #include "motion/motion_step.hpp"
 #include "motion/moved_soil.hpp"
-#include "motion/region_gains.hpp"
 #include "motion/soil_inertia.hpp"
 #include "motion/solid_flux.hpp"
 #include "motion/start_stress.hpp"
 #include "solid/eroding_skeleton.hpp"
+#include "solid/region_gains.hpp"
 
 namespace suffuse {
 
@@ -129,11 +129,11 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] std::vector<double> smooth(const std::vector<double>& of_points) const {
     return smooth_volumes(this->grid_, points_, of_points, supports_.rigid_elements());
   }
-  [[nodiscard]] NodeVectors<Dim> loads(const MotionForcing& forcing,
-                                       const std::vector<double>& solid_mass,
-                                       const std::vector<double>& pressure,
-                                       const PointsByElement& sorted,
-                                       const ElementClasses& classes) const;
+  [[nodiscard]] SoilLoads<Dim> loads(const MotionForcing& forcing,
+                                     const std::vector<double>& solid_mass,
+                                     const std::vector<double>& pressure,
+                                     const PointsByElement& sorted,
+                                     const ElementClasses& classes) const;
   /// Mass of the points' solid after this loss, kg.
   [[nodiscard]] std::vector<double> solid_masses(const std::vector<double>& loss) const;
   /// Sets pressures and loads of a step before its solution, without crossing forces.
@@ -146,8 +146,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   /// Kinetics of a step in equilibrium. `before`: places of the points at its start.
   [[nodiscard]] SoilKinetics kinetics(const MotionStep<Dim>& step,
                                       const std::vector<Vector<Dim>>& before) const;
-  /// E_oed per point, Pa; 0 if it does not move.
-  [[nodiscard]] std::vector<double> moduli() const;
   [[nodiscard]] std::vector<double> drained_compressibility() const;
   /// What another run can go on with, in the order of MovedSoil::lasting.
   static auto lasting(auto& s) {

@@ -12,6 +12,7 @@ MovedSoil<Dim> MovingSkeleton<Dim>::moved() const {
   MovedSoil<Dim> soil;
   soil.lasting() = lasting(*this);
   soil.has_inertia = has_inertia();
+  soil.skeleton = skeletons({});
   soil.surfaces = boundary_loads_.surfaces();
   soil.has_soil = this->soils().has_soil();
   return soil;

@@ -41,6 +41,9 @@ bool settle(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
     for (Vector<Dim>& force : forces) force *= share;
     std::vector<double> pressure = loads.pressure;
     for (double& p : pressure) p *= share;
+    std::vector<Vector<Dim>> weight = loads.weight;
+    for (Vector<Dim>& of_element : weight) of_element *= share;
+    step.set_weight(weight);
     for (int pass = 0;; ++pass) {
       if (pass == max_passes || !step.solve(forces, pressure)) return false;
       if (step.iterations() == 0) break;
@@ -60,6 +63,7 @@ StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton
                         .far = far_share * extent(grid.mesh).norm(),
                         .max_iterations = max_slow_iterations};
   StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);
+  step.set_weight(loads.weight);
   while (limits.max_iterations > 0) {
     if (!step.solve(loads.forces, loads.pressure)) {
       if (!step.settle(loads.forces, loads.pressure, limits)) break;

@@ -12,9 +12,10 @@ namespace suffuse {
 /// Loads on the soil at the start.
 template <int Dim>
 struct StartLoads {
-  NodeVectors<Dim> forces;        ///< on the nodes, N
-  std::vector<double> pressure;   ///< of the pores, per element, Pa
-  std::array<double, 3> gravity;  ///< m/s2: its direction is the vertical
+  NodeVectors<Dim> forces;          ///< on the nodes, N
+  std::vector<Vector<Dim>> weight;  ///< of soil with its water, per element, N/m3
+  std::vector<double> pressure;     ///< of the pores, per element, Pa
+  std::array<double, 3> gravity;    ///< m/s2: its direction is the vertical
   /// K_0, horizontal over vertical effective stress; without it, the stress results from applying
   /// all loads at once.
   std::optional<double> earth_pressure;

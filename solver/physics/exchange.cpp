@@ -19,7 +19,7 @@ LocalState drive_state(const ExchangeModel& model, const SoilPlace& place, const
   const double thickening =
       model.viscosity.depends_on_concentration() ? model.viscosity.ratio(flow.concentration) : 1.0;
   state.unit_weight = weight;
-  state.permeability = clean * model.water_viscosity / weight;
+  state.permeability = clean / flow.resistance * model.water_viscosity / weight;
   state.drag_gradient = flux > 0.0 ? flow.resistance * thickening * flux / clean : flux;
   if (model.ergun) {
     const double size = ergun_grain_size(model.conductivity.conductivity, place.initial_porosity,

@@ -76,6 +76,14 @@ SoilElementTarget part_of(const SoilElementTarget& whole, const SoilElementState
   return part;
 }
 
+/// Number of increments for a row of the answer: the error of a path that yields falls with it.
+int increments_of(const ElementTable& table, int steps) {
+  constexpr std::size_t of_row = 1000;
+  constexpr std::size_t of_table = 100000;
+  const std::size_t wanted = std::min(of_row, of_table / table.rows.size());
+  return static_cast<int>(wanted) / steps + 1;
+}
+
 /// The soil that is tested. Throws InputError.
 const Soil& find_soil(const SceneDocument& document, const std::string& name) {
   std::vector<std::string> moving;
@@ -85,11 +93,10 @@ const Soil& find_soil(const SceneDocument& document, const std::string& name) {
   if (name.empty() && moving.size() == 1) return *document.scene.find_soil(moving.front());
   const Soil* soil = document.scene.find_soil(name);
   if (soil && soil->skeleton.moves()) return *soil;
-  if (moving.empty()) {
+  if (moving.empty())
     throw InputError(document.path +
                      ": got no soil with a law of the skeleton; expected one under "
                      "[soil.NAME.skeleton]");
-  }
   if (name.empty()) {
     throw InputError(document.path + ": got " + std::to_string(moving.size()) +
                      " soils with a law of the skeleton; expected --soil with " +
@@ -119,8 +126,9 @@ std::string element_test(const Soil& soil, const ElementTable& table, int steps)
     const ElementTableRow& row = table.rows[k];
     const SoilElementState start = element.state();
     const SoilElementTarget target = target_of(row);
-    for (int step = 1; step <= steps; ++step) {
-      const double share = static_cast<double>(step) / steps;
+    const int each = increments_of(table, steps);  // per row of the answer
+    for (int i = 1; i <= steps * each; ++i) {
+      const double share = static_cast<double>(i) / (steps * each);
       if (element.advance(part_of(target, start, share)) < 1.0) {
         refuse_row(table, row,
                    "stresses that the soil cannot carry: it yields on the way to this row at " +
@@ -128,6 +136,7 @@ std::string element_test(const Soil& soil, const ElementTable& table, int steps)
                        short_text(element.state().fines_left) + " of its fines left",
                    "stresses within the strength, or a strain in the place of one of them");
       }
+      if (i % each != 0) continue;
       text += row_of(std::lerp(table.rows[k - 1].moment, row.moment, share), element.state());
     }
   }

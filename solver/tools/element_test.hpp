@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "files/element_table.hpp"
 #include "scene/scene.hpp"
-#include "tools/element_table.hpp"
 
 namespace suffuse {
 

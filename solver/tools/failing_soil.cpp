@@ -95,8 +95,14 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
     kept = surface_cohesion(soils, state, failing.depth,
                             depths_below_surface(grid, supports, state.points, sorted));
   }
-  return find_safety_factor<Dim>({grid, state.points, sorted, skeleton, classes}, supports, loads,
-                                 state.pressure, threads, limits, kept);
+  const SolidBody<Dim> body{grid,
+                            state.points,
+                            sorted,
+                            skeleton,
+                            classes,
+                            {},
+                            unit_weights(state.points, volume, mass, soils.scene().gravity)};
+  return find_safety_factor<Dim>(body, supports, loads, state.pressure, threads, limits, kept);
 }
 
 template SafetyFactor find_safety_factor(const Grid<2>&, const SoilMap<2>&, const SoilState<2>&,

@@ -191,8 +191,8 @@ class StrengthReduction {
 
   /// Forces of the soil with its present strength.
   [[nodiscard]] std::unique_ptr<ForceBalance<Dim>> balance() const {
-    const SolidBody<Dim> body{body_.grid, points_,       body_.sorted,
-                              skeleton_,  body_.classes, soft_in_trials};
+    const SolidBody<Dim> body{body_.grid,    points_,        body_.sorted, skeleton_,
+                              body_.classes, soft_in_trials, body_.weight};
     if (shapes_) {
       auto quadratic =
           std::make_unique<QuadraticEquilibrium<Dim>>(body, supports_, *shapes_, threads_);

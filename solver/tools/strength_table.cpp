@@ -162,6 +162,14 @@ void refuse_failing_soil(const Case<Dim>& c, const FailingSoil& failing) {
     if (std::ranges::count(strong, region) > 0) continue;
     refuse_option("--region", shown_value(region), "a soil with a strength: " + listed(strong));
   }
+  for (const Soil& soil : c.document.scene.soils) {
+    if (!soil.skeleton.moves() || has_strength(soil)) continue;
+    if (soil.skeleton.law == skeleton_law("elastic")) continue;
+    std::fprintf(stderr,
+                 "suffuse-solver: warning: soil %s keeps its strength in all trials: its law, %s, "
+                 "has none to divide\n",
+                 shown_value(soil.region).c_str(), std::string(soil.skeleton.law->word).c_str());
+  }
   if (failing.depth > 0.0 && c.document.scene.gravity == std::array<double, 3>{}) {
     refuse_option("--deeper", shown_number(failing.depth), "a scene with gravity");
   }

@@ -806,8 +806,8 @@ TEST(SceneReference, has_parts_of_scenes_that_work) {
   const std::string soil = "porosity = 0.3\nskeleton_fraction = 0.6\ngrain_density = 2700\n";
   const std::string before =
       "formulation = \"single-point\"\ngravity = [0.0, -9.81]\ngeometry = {file = \"dam.geo\"}\n"
-      "liquid = {density = 1000, bulk_modulus = inf, viscosity = 1e-3}\ntime = {end = 100}\n"
-      "output.every = 1\n";
+      "liquid = {density = 1000, bulk_modulus = inf, viscosity = 1e-3}\ntime = {end = 1e6}\n"
+      "output.every = 1e5\n";
   const std::string reference = scene_reference_markdown();
   const std::string fence = "```toml\n";
   int parts = 0;

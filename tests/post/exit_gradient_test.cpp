@@ -108,5 +108,37 @@ TEST(ExitGradient, AWallThatLeaksIsNoExit) {
   EXPECT_EQ(out, cells("downstream")[1]);
 }
 
+/// Water rises through 1 m of soil into a pit with 0.5 m of free water: the bottom of the pit is an
+/// exit, with the gradient of the column.
+TEST(ExitGradient, TheBottomOfAPitFullOfWaterIsAnExit) {
+  const ScratchFolder scratch;
+  const std::string geometry =
+      "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
+      "Point(5) = {1, 1.5, 0}; Point(6) = {0, 1.5, 0};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+      "Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = {6, 4};\n"
+      "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+      "Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(2) = {2};\n"
+      "Physical Surface(\"sand\") = {1}; Physical Surface(\"pit\") = {2};\n"
+      "Physical Curve(\"bottom\") = {1}; Physical Curve(\"sides\") = {2, 4, 5, 7};\n"
+      "Physical Curve(\"top\") = {6};\n";
+  const std::string pit =
+      "name = \"pile\"\nformulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
+      "geometry.file = \"pile.geo\"\nmesh = { size = 0.2, structure = \"free\" }\n"
+      "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
+      "soil.sand = { porosity = 0.4, skeleton_fraction = 0.6, grain_density = 2650.0, "
+      "conductivity = 1e-3, skeleton = { law = \"elastic\", young = 1e9, poisson = 0.3 } }\n"
+      "soil.pit.free = true\n"
+      "boundary = [{ on = \"bottom\", fix = \"both\", head = [[0.0, 1.5], [100.0, 2.4]] }, "
+      "{ on = \"sides\", fix = \"normal\" }, { on = \"top\", head = 1.5 }]\n"
+      "time.end = 1000.0\noutput.every = 1000.0\n";
+  const auto parts = safety_of(testing::run_programs(scratch, "pile", pit, geometry));
+  const auto bed = std::ranges::find(parts, "pit", &PartSafety::name);
+  ASSERT_NE(bed, parts.end());
+  // Elements at free water conduct better, as if soil filled them in part.
+  EXPECT_NEAR(bed->least->gradient, 0.9, 0.05);
+  EXPECT_NEAR(bed->least->safety, 0.6 * 1.65 / 0.9, 0.06);
+}
+
 }  // namespace exit_gradient_test
 }  // namespace suffuse

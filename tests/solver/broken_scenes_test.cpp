@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -23,8 +24,8 @@ test::Mode scene_of(const std::string& name) {
   std::stringstream text;
   text << in.rdbuf();
   std::string scene = text.str();
-  for (const std::string file :
-       {"sec.geo", "negative-porosity-nan.geo", "sand-beside-rigid.geo", "sinking-column.geo"}) {
+  for (const std::string file : {"sec.geo", "negative-porosity-nan.geo", "sand-beside-rigid.geo",
+                                 "sinking-column.geo", "soft-column.geo"}) {
     const auto at = scene.find("\"" + file);
     if (at != std::string::npos) scene.insert(at + 1, folder_of_scenes);
   }
@@ -102,6 +103,33 @@ TEST(BrokenScenes, CompressedSoilIsRefusedWhenItsPoresAreGone) {
   std::cout << "last equilibrium at " << last << " s\n";
   EXPECT_GT(last, 45.0);
   EXPECT_LT(last, 200.0);
+}
+
+/// Hencky's law without lateral strain: M ln(x) = w - x (q + w) for the stretch x below submerged
+/// soil of the weight w, which was there at the start. The water over the surface, which has sunk
+/// by s, takes gamma_w s from the load.
+TEST(BrokenScenes, SoftSoilSettlesAsItsLawDemands) {
+  constexpr double modulus = 2e6 * 0.7 / (1.3 * 0.4);
+  constexpr double height = 10.0;
+  constexpr int parts = 1000;
+  double exact = 0.0;
+  for (int pass = 0; pass < 50; ++pass) {
+    const double load = 1e5 - 9810.0 * exact;
+    double sum = 0.0;
+    for (int k = 0; k < parts; ++k) {
+      const double weight = 0.6 * 1650.0 * 9.81 * height * (k + 0.5) / parts;
+      double stretch = 1.0;
+      for (int i = 0; i < 50; ++i)
+        stretch = std::exp((weight - stretch * (load + weight)) / modulus);
+      sum += (1.0 - stretch) * height / parts;
+    }
+    exact = sum;
+  }
+  const SceneRun run("soft-column");
+  ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+  const double settled = run.results.history().column("settlement_max").back();
+  std::cout << "settles by " << settled << " m, exact " << exact << " m\n";
+  EXPECT_NEAR(settled, exact, 0.02 * exact);
 }
 
 /// Deposits stay, and deposition ends without room. In the scene the room is gone within a second.

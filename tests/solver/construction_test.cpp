@@ -193,6 +193,30 @@ TEST_F(Construction, ARunWithoutConstructionGoesOn) {
   }
 }
 
+/// Soil under its weight that becomes stiffer neither moves nor changes its stress; a lift that is
+/// dug out of it then lets it rise by q y / E_oed of the new stiffness.
+TEST_F(Construction, SoilOfAnotherStiffnessKeepsItsStress) {
+  const BaseAtEnd before = base_at_end(run("first", without_lift_, ""));
+  const double most = unit_weight * base * base / young;
+  for (const std::vector<std::string>& sets :
+       {std::vector<std::string>{"soil.base.skeleton.young=1e9"},
+        std::vector<std::string>{"soil.base.skeleton.poisson=0.3"}}) {
+    const BaseAtEnd after = base_at_end(run(sets[0], without_lift_, "first", sets));
+    ASSERT_EQ(before.height.size(), after.height.size());
+    for (std::size_t p = 0; p < after.height.size(); ++p) {
+      EXPECT_NEAR(after.displacement[p], 0.0, 1e-6 * most) << sets[0];
+      EXPECT_NEAR(after.stress[p], before.stress[p], 1e-5 * unit_weight * base) << sets[0];
+    }
+  }
+  static_cast<void>(run("whole", with_lift_, ""));
+  const BaseAtEnd up =
+      base_at_end(run("dug", without_lift_, "whole", {"soil.base.skeleton.young=2e8"}));
+  for (std::size_t p = 0; p < up.height.size(); ++p) {
+    const double rise = unit_weight * lift * up.height[p] / (2.0 * young);
+    EXPECT_NEAR(up.displacement[p], rise, 5e-3 * most);
+  }
+}
+
 TEST_F(Construction, AStageGoesOnAfterAStopToTheSameBits) {
   static_cast<void>(run("first", with_lift_, ""));
   const std::vector<std::string> often{"output.every=0.1", "output.snapshot_every=0.1",

@@ -76,6 +76,37 @@ std::string answer(const std::string& table, const std::string& soil = "sand", i
   }
 }
 
+/// The path of Cam clay is followed in increments, however few rows are asked for. Towards the
+/// critical state q = M p', with M = 6 sin(phi) / (3 - sin(phi)).
+TEST(ElementTest, follows_the_path_of_soil_that_hardens) {
+  std::string mud = scene;
+  const std::string law = "law = \"mohr-coulomb\"";
+  mud.replace(mud.find(law), law.size(),
+              "law = \"cam-clay\"\ncompression = 0.1\npreconsolidation = 2e5\n"
+              "critical_friction = 25");
+  for (const std::string key : {"friction = [[1, 34], [0, 28]]\n", "cohesion = 0\n"}) {
+    mud.erase(mud.find("\n" + key) + 1, key.size());
+  }
+  const TemporaryFolder folder;
+  const std::string path = folder.write("table.csv",
+                                        "step,stress_xx,stress_yy,stress_zz,strain_yy\n"
+                                        "0,-2e5,-2e5,-2e5,\n1,-2e5,,-2e5,-0.6\n");
+  const SceneDocument document = parse_scene(mud, "scene.toml");
+  const auto strength = [&](int steps) {
+    const std::string text =
+        element_test(*document.scene.find_soil("sand"), read_element_table(path), steps);
+    return columns_of(text)["deviator_stress"].back();
+  };
+  const double exact = strength(4000);
+  EXPECT_NEAR(strength(1), exact, 1e-3 * exact);
+  EXPECT_NEAR(strength(7), exact, 1e-3 * exact);
+  const double s = std::sin(25.0 * std::numbers::pi / 180.0);
+  const double ratio = 6.0 * s / (3.0 - s);
+  const double critical = ratio * 2e5 / (1.0 - ratio / 3.0);
+  EXPECT_LT(exact, critical);
+  EXPECT_GT(exact, 0.98 * critical);
+}
+
 TEST(ElementTest, answers_a_triaxial_table) {
   auto columns = columns_of(answer(triaxial));
   ASSERT_EQ(columns.size(), 14U);

@@ -376,16 +376,65 @@ fix = "normal"
                 {mesh});
 }
 
-/// Patches of triangles at the surface failed by themselves once, at a factor of 1.1.
+/// Patches of triangles at the surface failed by themselves once, at a factor of 1.1. The factor
+/// falls to the exact one as the mesh is refined.
 TEST(StrengthTable, SlopeOfDrySandOnFreeTriangles) {
   const double exact = std::tan(36.0 * degree) * 30.0 / 12.0;
-  for (const bool has_air : {false, true}) {
+  const auto error = [&](bool has_air, double size) {
     const Workshop w;
     w.folder().write("sand.geo", sand_geometry(has_air));
-    w.mesh("sand", sand_scene(has_air ? 2.0 : 1.5));
+    w.mesh("sand", sand_scene(size));
     const double found = w.factors("sand").at("factor")[0];
     std::cout << (has_air ? "below air " : "") << found << ", exact " << exact << "\n";
-    EXPECT_NEAR(found, exact, 0.05 * exact);
+    return found / exact - 1.0;
+  };
+  const double coarse = error(false, 1.5);
+  const double fine = error(false, 0.8);
+  EXPECT_LT(std::abs(coarse), 0.08);
+  EXPECT_LT(std::abs(fine), 0.6 * std::abs(coarse));
+  EXPECT_NEAR(error(true, 2.0), 0.0, 0.1);
+}
+
+/// Weak soil under water between smooth sides stands with any strength: its stress is the same in
+/// all directions. Patches with one mean stress each bore its weight by shear stresses once, and
+/// failed.
+TEST(StrengthTable, LevelGroundStandsWithAnyStrength) {
+  const auto scene = [](const std::string& shape, const std::string& downwards,
+                        const std::string& law, const std::vector<std::string>& sides) {
+    std::string text = "formulation = \"single-point\"\ngravity = " + downwards +
+                       "\ngeometry = " + shape + R"(
+mesh = {size = 2.0, structure = "free"}
+liquid = {density = 1000.0, bulk_modulus = inf, viscosity = 1e-3}
+initial.water_level = 8.0
+time.end = 1.0
+output.every = 1.0
+[soil.specimen]
+porosity = 0.4
+skeleton_fraction = 0.6
+grain_density = 2650.0
+conductivity = 1e-5
+[soil.specimen.skeleton]
+young = 2e7
+poisson = 0.3
+)" + law + R"(
+[[boundary]]
+on = "bottom"
+fix = "both"
+)";
+    for (const std::string& side : sides) {
+      text += "[[boundary]]\non = \"" + side + "\"\nfix = \"normal\"\n";
+    }
+    return text;
+  };
+  const std::string plane = "{shape = \"column\", width = 16.0, height = 8.0}";
+  const std::string box = "{shape = \"box\", width = 12.0, depth = 6.0, height = 8.0}";
+  for (const std::string law : {"law = \"von-mises\"\ncohesion = 500.0",
+                                "law = \"mohr-coulomb\"\nfriction = 5.0\ncohesion = 0.0"}) {
+    const Workshop w;
+    w.mesh("plane", scene(plane, "[0.0, -9.81]", law, {"left", "right"}));
+    w.mesh("box", scene(box, "[0.0, 0.0, -9.81]", law, {"left", "right", "front", "back"}));
+    EXPECT_GE(w.factors("plane").at("holds")[0], 60.0) << law;
+    EXPECT_GE(w.factors("box").at("holds")[0], 60.0) << law;
   }
 }
 

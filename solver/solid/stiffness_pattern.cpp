@@ -1,4 +1,4 @@
-#include "equilibrium/stiffness_pattern.hpp"
+#include "solid/stiffness_pattern.hpp"
 
 #include "linear/sparse_entries.hpp"
 

@@ -1,4 +1,4 @@
-#include "tools/element_table.hpp"
+#include "files/element_table.hpp"
 
 #include <algorithm>
 #include <cmath>
