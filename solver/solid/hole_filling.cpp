@@ -1,6 +1,7 @@
 #include "solid/hole_filling.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace suffuse {
 namespace {
@@ -18,8 +19,7 @@ bool is_free(const Grid<Dim>& grid, const Supports<Dim>& supports, int face) {
   });
 }
 
-/// Elements without points that soil has left, or never filled: those that a chain of such elements
-/// connects with a free outer face.
+/// Elements without points that others connect with a free outer face.
 template <int Dim>
 std::vector<char> outside_of_soil(const Grid<Dim>& grid, const Supports<Dim>& supports,
                                   const std::vector<int>& count) {
@@ -33,11 +33,9 @@ std::vector<char> outside_of_soil(const Grid<Dim>& grid, const Supports<Dim>& su
   for (int f = 0; f < grid.face_count(); ++f) {
     if (grid.is_outer(f) && is_free(grid, supports, f)) add(grid.face_left[f]);
   }
-  while (!found.empty()) {
-    const int e = found.back();
-    found.pop_back();
+  for (std::size_t i = 0; i < found.size(); ++i) {
     for (int k = 0; k <= Dim; ++k) {
-      if (const int other = grid.across(e, k); other >= 0) add(other);
+      if (const int other = grid.across(found[i], k); other >= 0) add(other);
     }
   }
   return outside;
@@ -74,15 +72,11 @@ void fill_holes(const Grid<Dim>& grid, const Supports<Dim>& supports, SolidPoint
     if (nearest < 0) continue;
     --count[points.element[nearest]];
     ++count[e];
-    double sum = 0.0;
-    for (double& coordinate : place) {
-      coordinate = std::max(coordinate, depth);
-      sum += coordinate;
-    }
+    for (double& coordinate : place) coordinate = std::max(coordinate, depth);
+    const double sum = std::accumulate(place.begin(), place.end(), 0.0);
     Vector<Dim> there = Vector<Dim>::Zero();
-    for (int a = 0; a <= Dim; ++a) {
+    for (int a = 0; a <= Dim; ++a)
       there += place[a] / sum * grid.mesh.nodes[grid.mesh.elements[e][a]];
-    }
     start[nearest] += there - points.position[nearest];
     points.position[nearest] = there;
     points.element[nearest] = e;

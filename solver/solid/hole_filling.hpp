@@ -12,8 +12,7 @@ namespace suffuse {
 /// more then gives it the nearest one, moved over their common face. Elements without points at a
 /// free outer face, and others that they reach, may be room that the soil has left: they stay
 /// empty.
-/// \param start  per point: its place at the start, m; it moves with the point, so that
-///               displacements are those of the soil
+/// \param start  places of the points at the start, m: they move with the points
 template <int Dim>
 void fill_holes(const Grid<Dim>& grid, const Supports<Dim>& supports, SolidPoints<Dim>& points,
                 std::vector<Vector<Dim>>& start);
