@@ -284,9 +284,10 @@ void ImplicitFlow<Dim>::set_forcing(const FlowInterval<Dim>& interval, FlowStep<
     blending_.blend(shares[stage] * step.dt, this->coefficients_, forcing.coefficients);
     if (scheme_.soils().air_moves()) keep_pores(this->coefficients_.porosity, forcing.coefficients);
     if (forcing.conditions.empty()) forcing.conditions = this->conditions_;
+    const bool has_mean = shares.size() == 1 && (solid_.moves() || scheme_.is_nonlinear());
     this->boundary_values().update(
-        BoundaryTime::of_stage(step.start, step.dt, shares[stage], shares.size() == 1),
-        step.reservoir_rates, forcing.conditions);
+        BoundaryTime::of_stage(step.start, step.dt, shares[stage], has_mean), step.reservoir_rates,
+        forcing.conditions);
     forcing.source = source;
   }
 }
