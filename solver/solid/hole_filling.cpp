@@ -33,10 +33,11 @@ std::vector<char> outside_of_soil(const Grid<Dim>& grid, const Supports<Dim>& su
   for (int f = 0; f < grid.face_count(); ++f) {
     if (grid.is_outer(f) && is_free(grid, supports, f)) add(grid.face_left[f]);
   }
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (int k = 0; k <= Dim; ++k) {
-      if (const int other = grid.across(found[i], k); other >= 0) add(other);
-    }
+  while (!found.empty()) {
+    const int e = found.back();
+    found.pop_back();
+    for (int k = 0; k <= Dim; ++k)
+      if (const int other = grid.across(e, k); other >= 0) add(other);
   }
   return outside;
 }
@@ -62,11 +63,10 @@ void fill_holes(const Grid<Dim>& grid, const Supports<Dim>& supports, SolidPoint
       for (const int p : sorted.of(other)) {
         if (points.element[p] != other) continue;
         const auto from_e = barycentric(grid.mesh, e, points.position[p]);
-        const double lowest = *std::ranges::min_element(from_e);
-        if (nearest >= 0 && lowest <= least) continue;
+        if (nearest >= 0 && std::ranges::min(from_e) <= least) continue;
         nearest = p;
         place = from_e;
-        least = lowest;
+        least = std::ranges::min(from_e);
       }
     }
     if (nearest < 0) continue;
