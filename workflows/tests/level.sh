@@ -110,7 +110,8 @@ run_make "${lifted[@]}"
 expect 'one that is missing is made again' "$(cut -d' ' -f1 <<< "$before") 1" \
   "$(statuses "$out" | cut -d' ' -f1) $(comm -13 <(echo "$before") <(statuses "$out") | grep -c assessed)"
 
-# A skin that does not slide has a larger factor; it is found again when the depth changes, and when it goes.
+# Level ground has no finite factor below the water that lifts it; it is found again when the options change, and when
+# they go.
 printf '%s\n' 'boundary[0].head' 1.8 > head.csv
 out="$work/o ut/sweep/head"
 factors=()
@@ -122,7 +123,7 @@ for options in '' 'REGION=specimen' 'REGION=specimen DEEPER=0.3' 'QUADRATIC=1' '
   expect "factors of '$options' are made again, and no run" "assessed$([ -n "$before" ] || echo ' status')" \
     "$(comm -13 <(echo "$before") <(statuses "$out") | sed 's/ .*//; s/.*[.]//' | xargs)"
 done
-expect 'the only soil is all soil, a skin that holds helps, quadratic displacements find another way' 'same more other same' \
+expect 'level ground stands with any strength, whatever is left out' 'same inf inf inf same' \
   "$(awk -v a="${factors[0]}" -v b="${factors[1]}" -v c="${factors[2]}" -v d="${factors[3]}" -v e="${factors[4]}" \
     'BEGIN { print (a == b ? "same" : a " " b), (c > 1.05 * b ? "more" : c " " b), (d > 0 && d != a ? "other" : d), (e == a ? "same" : e) }')"
 run_make sweep SCENE=lifted.toml SWEEP=head.csv FACTOR=start REGION=soil NAME=refused
