@@ -551,17 +551,16 @@ TEST(LoadedSurface, RefusesToLeaveTheMeshOrItsSoil) {
     return std::string();
   };
   LoadedHalf m;
-  EXPECT_EQ(
-      message_of([&] { m.displace_surface(Eigen::Matrix2d::Zero(), Vector<2>(0.0, 1.6)); }),
-      "the loaded surface moves to (0.0528312       2.1), which is far outside the mesh; make "
-      "the mesh larger");
+  EXPECT_EQ(message_of([&] { m.displace_surface(Eigen::Matrix2d::Zero(), Vector<2>(0.0, 1.6)); }),
+            "the loaded surface moves to (0.0528312, 2.1), which is far outside the mesh; make "
+            "the mesh larger");
   LoadedHalf empty;
   empty.sorted = PointsByElement(empty.mesh.element_count(), {});
   NodalLoads<2> loads(empty.grid);
   EXPECT_EQ(message_of([&] {
               empty.surface.add_traction(empty.grid, empty.sorted, Vector<2>(0.0, 1.0), loads);
             }),
-            "the loaded surface at (0.0528312       0.5) has lost its soil: there is none within 4 "
+            "the loaded surface at (0.0528312, 0.5) has lost its soil: there is none within 4 "
             "elements below");
 }
 

@@ -15,6 +15,7 @@
 #include "box_mesh.hpp"
 #include "motion/element_gains.hpp"
 #include "reference_table.hpp"
+#include "solid/hole_filling.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/solid_model.hpp"
 
@@ -408,6 +409,8 @@ TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
     ASSERT_TRUE(step.solve(loads.forces(), {}));
     boundary.move(step.sorted(), step.displacement());
     move_points(b.grid, skeleton, step.displacement(), step.law_increments(), points, 1);
+    std::vector<Vector<2>> start_places = points.position;
+    fill_holes(b.grid, supports, points, start_places);
   }
   b.run(0.0, 1.0, 40);
   int moved = 0;
