@@ -73,11 +73,12 @@ bool may_switch(const BoundaryCondition& boundary, const FaceSurroundings& aroun
 }
 
 /// The values of a boundary that change in time.
-std::vector<TimeFunction> varying_values(const BoundaryCondition& boundary) {
-  std::vector<TimeFunction> varying;
-  for (const auto& value : {boundary.pressure, boundary.velocity, boundary.darcy_flux,
-                            boundary.head, boundary.rain, boundary.rate, boundary.concentration}) {
-    if (value && !value->is_constant()) varying.push_back(*value);
+std::vector<const TimeFunction*> varying_values(const BoundaryCondition& boundary) {
+  std::vector<const TimeFunction*> varying;
+  for (const auto* value :
+       {&boundary.pressure, &boundary.velocity, &boundary.darcy_flux, &boundary.head,
+        &boundary.rain, &boundary.rate, &boundary.concentration}) {
+    if (*value && !(*value)->is_constant()) varying.push_back(&**value);
   }
   return varying;
 }
@@ -208,7 +209,7 @@ BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
   const Scene& scene = scene_;
   const Outside<Dim> outside(scene, grid);
   for (int b = 0; b < static_cast<int>(scene.boundaries.size()); ++b) {
-    const std::vector<TimeFunction> values = varying_values(scene.boundaries[b]);
+    const std::vector<const TimeFunction*> values = varying_values(scene.boundaries[b]);
     const bool is_reservoir = scene.boundaries[b].is_reservoir();
     if (values.empty() && !is_reservoir) continue;
     Varying& varying = varying_.emplace_back(Varying{scene.boundaries[b], b, {}, {}});
@@ -221,8 +222,8 @@ BoundaryValues<Dim>::BoundaryValues(const Case<Dim>& c, const Grid<Dim>& grid)
     }
     const double conductance = outside.conductance_of(varying.faces);
     for (const int f : varying.faces) varying.around.push_back(outside.of(f, conductance));
-    for (const TimeFunction& value : values) {
-      for (const double time : value.breakpoints()) {
+    for (const TimeFunction* value : values) {
+      for (const double time : value->breakpoints()) {
         if (time > 0.0 && time < scene.time.end) breakpoints_.push_back(time);
       }
     }
@@ -275,9 +276,10 @@ template <int Dim>
 double BoundaryValues<Dim>::longest_step(double time, double share) const {
   double longest = std::numeric_limits<double>::infinity();
   for (const Varying& varying : varying_) {
-    for (const TimeFunction& value : varying_values(varying.boundary)) {
-      const auto [low, high] = value.range(0.0, scene_.time.end);
-      const double whole = (high - low) / std::abs(value.slope(time));  // time for the whole range
+    for (const TimeFunction* value : varying_values(varying.boundary)) {
+      const auto [low, high] = value->range(0.0, scene_.time.end);
+      // In which the value would change by its whole range, s.
+      const double whole = (high - low) / std::abs(value->slope(time));
       if (whole > jump * scene_.time.end) longest = std::min(longest, share * whole);
     }
   }
