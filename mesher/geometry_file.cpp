@@ -375,7 +375,7 @@ void refuse_unread_end(const std::string& path) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::size_t last = text.rfind('\n') + 1;  // 0 without a line before
   const std::string line = text.substr(last);
-  if (line.find("//") < line.find(';') || std::ranges::count(line, ';') < 2) return;
+  if (std::ranges::count(line.substr(0, line.find("//")), ';') < 2) return;
   const auto number = std::ranges::count(text, '\n') + 1;
   throw InputError(InputProblem{path + ":" + std::to_string(number), "",
                                 "statements on a last line that does not end, of which Gmsh reads "

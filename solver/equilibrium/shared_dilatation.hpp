@@ -31,8 +31,9 @@ class SharedDilatation {
   [[nodiscard]] bool is_shared(int element) const { return acts() && share_[element] > 0.0; }
   /// Sets the ratios of elements in a patch to that of the patch.
   void average(std::vector<double>& ratio) const;
-  /// Weight of the soil of the patch, N/m3, times the way of an element's centroid from the middle
-  /// of the patch, per element, Pa: 0 where nothing is shared. \param weight  per element, N/m3
+  /// How much larger the total pressure of an element is than that of its patch, Pa: the weight of
+  /// the soil of the patch times the way from the middle of the patch to that of the element. 0
+  /// where nothing is shared. \param weight  per element, N/m3
   [[nodiscard]] std::vector<double> variation(const Mesh<Dim>& mesh,
                                               const std::vector<Vector<Dim>>& weight) const;
   /// The derivative of the work of mean stresses by J: w_e / sum w times the sum of m/Jm in the
