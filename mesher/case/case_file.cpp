@@ -53,6 +53,7 @@ void write_points(Hdf5File& file, const std::string& group, const MaterialPoints
 void write_scene(Hdf5File& file, const SceneDocument& document) {
   file.write_text("/scene/text", document.text);
   file.write_text("/scene/path", document.path);
+  if (!document.scene.initial_from.empty()) file.write_text("/scene/folder", document.folder);
   file.write_texts("/scene/overrides", document.overrides);
   if (document.files.empty()) return;
   std::vector<std::string> names;
@@ -116,6 +117,7 @@ class CaseReader : private ElementReader<Dim> {
     try {
       SceneDocument document =
           parse_scene(text, path, file_.read_texts("/scene/overrides"), scene_files());
+      if (file_.exists("/scene/folder")) document.folder = file_.read_text("/scene/folder");
       complete_for_mesh(document, Dim);
       std::vector<InputProblem> problems = scene_problems(document, mesh);
       if (!problems.empty()) throw InputError(std::move(problems));

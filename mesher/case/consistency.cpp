@@ -83,6 +83,11 @@ class SceneCheck {
       check_two_dimensional("soil." + soil.region + ".porosity_gradient", soil.porosity_gradient);
       check_two_dimensional("soil." + soil.region + ".porosity_origin", soil.porosity_origin);
     }
+    for (const BoundaryCondition& boundary : document_.scene.boundaries) {
+      if (Dim == 2 || !boundary.traction || boundary.traction->given == 3) continue;
+      report(boundary.key + ".traction", "two numbers, of x and y",
+             "three numbers: the mesh is three-dimensional");
+    }
   }
 
   void check_gauss_points() {

@@ -142,7 +142,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     }
     for (const BoundaryCondition& condition : scene_.boundaries) {
       const BoundarySet<Dim>* set = find_boundary(condition.on);
-      if (!set) continue;
+      if (!set || condition.is_impervious()) continue;
       for (const auto& face : set->faces) {
         for (const int node : face) edges[node] = 0;
       }

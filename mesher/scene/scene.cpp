@@ -87,14 +87,16 @@ SceneDocument parse_scene(const std::string& text, const std::string& path,
 
 SceneDocument read_scene(const std::string& path, const std::vector<std::string>& overrides) {
   const std::string text = read_text(path, "the scene ");
-  return read_document(text, path, overrides,
-                       [&](const std::string& name) -> std::optional<std::string> {
-                         try {
-                           return read_text(file_beside_scene(path, name), "");
-                         } catch (const FileError&) {
-                           return std::nullopt;
-                         }
-                       });
+  SceneDocument document = read_document(
+      text, path, overrides, [&](const std::string& name) -> std::optional<std::string> {
+        try {
+          return read_text(file_beside_scene(path, name), "");
+        } catch (const FileError&) {
+          return std::nullopt;
+        }
+      });
+  document.folder = std::filesystem::absolute(path).parent_path().string();
+  return document;
 }
 
 }  // namespace suffuse

@@ -213,6 +213,10 @@ struct BoundaryCondition {
 
   [[nodiscard]] bool is_reservoir() const { return !std::isnan(reservoir_area); }
   [[nodiscard]] bool is_well() const { return key.starts_with("well"); }
+  /// Whether it says nothing of the liquid, which then does not cross it.
+  [[nodiscard]] bool is_impervious() const {
+    return !pressure && !velocity && !darcy_flux && !head && !rain && !rate && !seepage_face;
+  }
 };
 
 /// A wall without thickness on a named curve inside the mesh.
@@ -318,6 +322,7 @@ bool names_free_water(const std::string& region);
 /// again.
 struct SceneDocument {
   std::string path;                    ///< as the user gave it
+  std::string folder;                  ///< of the scene when it was read from a file, absolute
   std::string text;                    ///< the TOML file, byte for byte
   std::vector<std::string> overrides;  ///< `--set` arguments, in order
   Scene scene;

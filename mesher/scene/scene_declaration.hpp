@@ -129,6 +129,7 @@ inline void keep(FinesFunction& member, const Value& value) {
 inline void keep(std::optional<VectorFunction>& member, const Value& value) {
   VectorFunction result;
   const auto add = [&](double time, std::span<const double> components) {
+    result.given = components.size();
     std::ranges::copy(components,
                       result.knots.emplace_back(time, VectorFunction::Components{}).second.begin());
   };

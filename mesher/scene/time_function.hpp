@@ -41,6 +41,7 @@ struct VectorFunction {
   friend bool operator==(const VectorFunction&, const VectorFunction&) = default;
 
   std::vector<std::pair<double, Components>> knots;  ///< (s, value), times strictly ascending
+  std::size_t given = 3;  ///< components that the scene gives; the others are 0
 };
 
 }  // namespace suffuse

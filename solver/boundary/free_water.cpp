@@ -31,6 +31,14 @@ void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
       return Vector<Dim>(pressure[e] * grid.volume[e] * grid.shape_gradient[e][a]);
     };
     loads.add(nodes, of_pressure, EdgeShare<Dim>::stress, of_soil);
+    // The water presses on the outer boundary too, not on the soil beside it.
+    for (int k = 0; k <= Dim; ++k) {
+      if (grid.across(e, k) >= 0) continue;
+      const Vector<Dim> against = of_pressure(k);  // -p A n / d
+      loads.add(
+          grid.face_nodes[grid.element_face[e][k]], [&](std::size_t) { return against; },
+          EdgeShare<Dim>::face, of_soil);
+    }
   }
 }
 

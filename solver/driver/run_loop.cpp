@@ -1,9 +1,11 @@
 #include "driver/run_loop.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "driver/interrupt.hpp"
 #include "driver/transport_cost.hpp"
+#include "mesh/place_text.hpp"
 #include "solid/channel_width.hpp"
 
 namespace suffuse {
@@ -58,6 +60,26 @@ void RunLoop<Dim>::warn_of_channels(OutputSink<Dim>& sink) {
 }
 
 template <int Dim>
+void RunLoop<Dim>::warn_of_border(OutputSink<Dim>& sink) {
+  constexpr double noticed = 0.05;
+  if (warned_of_border_ || !model_->solid().moves()) return;
+  const MaterialPoints<Dim>& points = model_->solid().soils().points();
+  for (int p = 0; p < points.size(); ++p) {
+    if (std::ranges::min(points.barycentric[p]) > -noticed) continue;
+    warned_of_border_ = true;
+    std::ostringstream text;
+    text << "soil has risen over the edge of the mesh by more than " << 100.0 * noticed
+         << " % of an element at " << place_text<Dim>(points.position(model_->grid().mesh, p))
+         << ", t = " << model_->time()
+         << " s: the mesh holds it in less room than it takes, so that its pores, flow and "
+            "gradients are wrong there; give it room above (a region free_above, or one with free "
+            "= true)";
+    sink.warn(text.str());
+    return;
+  }
+}
+
+template <int Dim>
 void RunLoop<Dim>::warn_of_outputs(OutputSink<Dim>& sink) {
   if (warned_of_outputs_ || !schedule_.writes_each_step()) return;
   warned_of_outputs_ = true;
@@ -73,7 +95,10 @@ void RunLoop<Dim>::output(OutputSink<Dim>& sink) {
   const OutputSchedule::Due due = schedule_.take(model_->time());
   if (!due.row && !due.snapshot) return;
   const FlowState<Dim> flow = model_->flow_state();
-  if (due.snapshot) warn_of_channels(sink);
+  if (due.snapshot) {
+    warn_of_channels(sink);
+    warn_of_border(sink);
+  }
   // The row comes first, because the snapshot stores the number of rows.
   if (due.row) sink.write_row(flow);
   if (due.snapshot) sink.write_snapshot(flow);

@@ -87,7 +87,8 @@ class RunLoop {
   [[nodiscard]] const OutputSchedule& schedule() const { return schedule_; }
 
   void archive(StateArchive& archive) {
-    archive(*model_, schedule_, warned_of_points_, warned_of_outputs_, warned_of_channels_);
+    archive(*model_, schedule_, warned_of_points_, warned_of_outputs_, warned_of_channels_,
+            warned_of_border_);
   }
   /// The state from which a run can continue: that of the loop and of `more`, in this order. On
   /// several ranks all have to call it, and rank 0 gets the state of all.
@@ -110,6 +111,7 @@ class RunLoop {
   void warn_of_points(OutputSink<Dim>& sink);
   void warn_of_outputs(OutputSink<Dim>& sink);
   void warn_of_channels(OutputSink<Dim>& sink);
+  void warn_of_border(OutputSink<Dim>& sink);
 
   std::unique_ptr<TwoPhaseModel<Dim>> model_;
   OutputSchedule schedule_;
@@ -117,6 +119,7 @@ class RunLoop {
   bool warned_of_points_ = false;    ///< the warning of many crossings was given
   bool warned_of_outputs_ = false;   ///< the warning of an output each step was given
   bool warned_of_channels_ = false;  ///< the warning of channels as narrow as elements was given
+  bool warned_of_border_ = false;    ///< the warning of soil over the edge of the mesh was given
   std::size_t state_size_ = 0;       ///< of the last restart point, bytes
 };
 

@@ -21,6 +21,15 @@ constexpr const char* source_key = "initial.from";
   throw InputError(InputProblem{document.locate(source_key), source_key, found, expected});
 }
 
+/// The folder of the results that the scene starts from. A case made on another machine, without
+/// this folder of the scene, takes the scene's path from the working folder on.
+std::string results_beside_scene(const SceneDocument& document) {
+  const std::filesystem::path scene = std::filesystem::exists(document.folder)
+                                          ? std::filesystem::path(document.folder)
+                                          : std::filesystem::path(document.path).parent_path();
+  return (scene / document.scene.initial_from).string();
+}
+
 /// Restores a model of the case to the state of `point`, and returns this state.
 template <int Dim>
 EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, const SolverOptions& options) {
@@ -56,7 +65,7 @@ template <int Dim>
 std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, const SolverOptions& options) {
   const SceneDocument& document = c.document;
   if (document.scene.initial_from.empty()) return std::nullopt;
-  const std::string folder = file_beside_scene(document.path, document.scene.initial_from);
+  const std::string folder = results_beside_scene(document);
   const std::string shown = shown_value(document.scene.initial_from);
   if (!std::filesystem::exists(layout::in_folder(folder, layout::run_info))) {
     refuse_source(document, shown + ", where there are no results",

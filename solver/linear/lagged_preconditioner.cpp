@@ -12,6 +12,9 @@ namespace {
 
 /// Multigrid takes 15 to 60 iterations.
 constexpr int max_patient_iterations = 1000;
+/// Rows up to which a direct factor replaces multigrid that does not converge: it takes some 10 GB
+/// there in three dimensions.
+constexpr int most_direct_rows = 300'000;
 
 /// Copies without new memory if there is enough.
 void copy_values(const Eigen::SparseMatrix<double>& matrix, std::vector<double>& values) {
@@ -62,15 +65,26 @@ Eigen::VectorXd LaggedPreconditioner::solve_directly(const SymmetricSystem& syst
     const bool solved = patient_gradients_.solve(system, *factor_, solution);
     counts_.iterations += patient_gradients_.iterations();
     if (solved) return solution;
-    throw NumericalError("the pressures could not be solved for: " +
-                         std::to_string(patient_gradients_.iterations()) +
-                         " iterations with multigrid are not enough");
+    if (system.matrix.rows() > most_direct_rows) {
+      throw NumericalError("the pressures could not be solved for: " +
+                           std::to_string(patient_gradients_.iterations()) +
+                           " iterations with multigrid are not enough; expected is a conductivity "
+                           "that differs less along and across the bedding, or a coarser mesh");
+    }
+    CholeskyFactor exact;
+    exact.factorise(system.matrix);
+    return refined_solution(exact, system);
   }
+  return refined_solution(*factor_, system);
+}
+
+Eigen::VectorXd LaggedPreconditioner::refined_solution(Factor& exact,
+                                                       const SymmetricSystem& system) {
   Eigen::VectorXd x;
-  factor_->solve(system.rhs, x);
+  exact.solve(system.rhs, x);
   residual_.compute(system, x);
   if (!residual_.is_allowed()) {
-    factor_->solve(residual_.values, correction_);
+    exact.solve(residual_.values, correction_);
     x += correction_;
   }
   return x;

@@ -90,6 +90,8 @@ class LaggedPreconditioner {
 
   void factorise(const Matrix& matrix);
   [[nodiscard]] Eigen::VectorXd solve_directly(const SymmetricSystem& system);
+  /// Solves with an exact factor of the matrix, and refines the solution once if need be.
+  [[nodiscard]] Eigen::VectorXd refined_solution(Factor& exact, const SymmetricSystem& system);
   /// Improves `x` by iterations with the factor of an earlier matrix. Returns whether it is solved.
   bool solve_by_iterations(const SymmetricSystem& system, Eigen::VectorXd& x);
 

@@ -44,7 +44,9 @@ void refuse_impossible(const Grid<Dim>& grid, const std::vector<double>& solid_v
     message << "t = " << time << " s: soil that moves "
             << (porosity <= 0.0 ? "is compressed to its grains" : "would leave less than no solid")
             << " in " << element_text(grid, e) << " (porosity " << porosity
-            << "); expected are smaller elements, or soil that is stiffer against its loads";
+            << "); expected are smaller elements, soil that is stiffer against its loads, or room "
+               "above where it rises over the edge of the mesh (a region free_above, or one with "
+               "free = true)";
     throw NumericalError(message.str());
   }
 }

@@ -71,14 +71,13 @@ std::vector<double> diffusivity(const Grid<Dim>& grid, const SoilMap<Dim>& soils
 
 template <int Dim>
 std::vector<SoilFilling> soil_filling(const Grid<Dim>& grid, const ElementClasses& classes,
-                                      const std::vector<double>& volume,
-                                      const std::vector<double>& solid) {
-  std::vector<SoilFilling> result(volume.size());
-  for (std::size_t e = 0; e < volume.size(); ++e) {
-    if (classes.full[e] == 1.0) continue;
-    const double share = std::min(1.0, volume[e] / grid.volume[e]);
-    result[e] = {std::lerp(share, 1.0, classes.full[e]),
-                 volume[e] > 0.0 ? 1.0 - solid[e] / volume[e] : 1.0};
+                                      const SoilVolumes& own, const SoilVolumes& smoothed) {
+  std::vector<SoilFilling> result(classes.full.size());
+  for (std::size_t e = 0; e < result.size(); ++e) {
+    const double share = std::min(1.0, smoothed.soil[e] / grid.volume[e]);
+    const double full = classes.full[e];
+    result[e] = {std::lerp(share, 1.0, full),
+                 std::lerp(smoothed.porosity(e), own.porosity(e), full)};
   }
   return result;
 }
@@ -96,10 +95,8 @@ template std::vector<double> diffusivity(const Grid<3>&, const SoilMap<3>&, cons
                                          std::vector<double>, const std::vector<double>&,
                                          const std::vector<double>&);
 template std::vector<SoilFilling> soil_filling(const Grid<2>&, const ElementClasses&,
-                                               const std::vector<double>&,
-                                               const std::vector<double>&);
+                                               const SoilVolumes&, const SoilVolumes&);
 template std::vector<SoilFilling> soil_filling(const Grid<3>&, const ElementClasses&,
-                                               const std::vector<double>&,
-                                               const std::vector<double>&);
+                                               const SoilVolumes&, const SoilVolumes&);
 
 }  // namespace suffuse

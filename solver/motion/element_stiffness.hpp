@@ -35,11 +35,23 @@ std::vector<double> diffusivity(const Grid<Dim>& grid, const SoilMap<Dim>& soils
                                 const std::vector<double>& initial_porosity,
                                 const std::vector<double>& porosity);
 
-/// Share of each element that soil fills, and the porosity of that soil.
-/// \param volume, solid  of the points, smoothed, m3 per element
+/// Volumes of soil and of its solid, m3 per element.
+struct SoilVolumes {
+  /// 1 - solid/soil; 1 without soil.
+  [[nodiscard]] double porosity(std::size_t element) const {
+    return soil[element] > 0.0 ? 1.0 - solid[element] / soil[element] : 1.0;
+  }
+
+  std::vector<double> soil;
+  std::vector<double> solid;
+};
+
+/// Share of each element that soil fills, and the porosity of that soil. An element inside the soil
+/// has the porosity of its own points, which no motion through elements smears.
+/// \param own       of the points of each element
+/// \param smoothed  of the points, smoothed by nodes
 template <int Dim>
 std::vector<SoilFilling> soil_filling(const Grid<Dim>& grid, const ElementClasses& classes,
-                                      const std::vector<double>& volume,
-                                      const std::vector<double>& solid);
+                                      const SoilVolumes& own, const SoilVolumes& smoothed);
 
 }  // namespace suffuse

@@ -116,9 +116,14 @@ template <int Dim>
 void MovingSkeleton<Dim>::find_filling() {
   const PointsByElement sorted(this->grid_.mesh.element_count(), points_.element);
   const ElementClasses classes(this->grid_, points_, sorted);
-  // Smoothed by nodes, as the drag would otherwise jump when points leave an element.
-  filling_ = soil_filling(this->grid_, classes, smooth(points_.volume),
-                          smooth(this->state_.solid_volumes()));
+  const std::vector<double> solid = this->state_.solid_volumes();
+  const auto sums = [this](const std::vector<double>& of_points) {
+    return sums_in_elements(this->grid_, points_, of_points, 1.0);
+  };
+  // At the surface smoothed by nodes, as the drag would otherwise jump when points leave an
+  // element.
+  filling_ = soil_filling<Dim>(this->grid_, classes, SoilVolumes{sums(points_.volume), sums(solid)},
+                               SoilVolumes{smooth(points_.volume), smooth(solid)});
 }
 
 // ---------------------------------------------------------------------------------------- results

@@ -40,12 +40,12 @@ class EquilibriumLost : public NumericalError {
   using NumericalError::NumericalError;
 };
 
-/// The part of an element at the surface that soil fills.
+/// The part of an element that soil which moves fills.
 struct SoilFilling {
   void archive(auto& archive) { archive(share, porosity); }
 
   double share = 1.0;     ///< of the element; 0: free water
-  double porosity = 0.0;  ///< n_L of the soil there; not used if the share is 0 or 1
+  double porosity = 0.0;  ///< n_L of the soil there, by its points; not used if the share is 0
 };
 
 template <int Dim>

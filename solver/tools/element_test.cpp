@@ -2,8 +2,8 @@
 
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
-#include "driver/text_output.hpp"
 #include "files/number_text.hpp"
+#include "files/text_output.hpp"
 #include "physics/skeleton/soil_element.hpp"
 #include "scene/scene_schema.hpp"
 

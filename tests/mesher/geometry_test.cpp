@@ -995,6 +995,25 @@ TEST_F(UserFile, AThirdDirectionIsRefusedInThePlane) {
   }
 }
 
+TEST_F(UserFile, ALoadInSpaceHasThreeNumbers) {
+  const auto message = [](const std::string& traction) {
+    const SceneDocument scene = parse_scene(
+        scene_text("[geometry]\nshape = \"box\"\nwidth = 1.0\ndepth = 1.0\nheight = 1.0\n"
+                   "[mesh]\nsize = 0.5\n",
+                   "skeleton = { law = \"elastic\", young = 1e7, poisson = 0.3 }\n") +
+            "[[boundary]]\non = \"top\"\ntraction = " + traction + "\n",
+        "scene.toml", {"time.scheme=implicit"});
+    return refusal([&] { build_geometry_of<3>(scene); });
+  };
+  for (const char* plane : {"[0.0, -1e3]", "[[0.0, 0.0, 0.0], [10.0, 0.0, -1e3]]"}) {
+    EXPECT_NE(message(plane).find("boundary[0].traction: got two numbers, of x and y; expected "
+                                  "three numbers: the mesh is three-dimensional"),
+              std::string::npos)
+        << message(plane);
+  }
+  EXPECT_EQ(message("[0.0, 0.0, -1e3]"), "");
+}
+
 TEST_F(UserFile, OneEdgeTakesOneCondition) {
   const std::string both =
       "[[boundary]]\non = \"all\"\npressure = 0.0\n[[boundary]]\non = \"top\"\npressure = 1.0\n";

@@ -148,7 +148,12 @@ TEST(Resolution, CountsElementsFromWhereWaterEntersToWhereItLeaves) {
   for (const int rows : {1, 2, 3}) {
     EXPECT_EQ(of_mesh(grid(8, rows, 1.0, 1.0)), Warnings{too_few("specimen")}) << rows;
   }
-  // An impervious base is a plane of symmetry.
+  // An impervious base is a plane of symmetry, held or not.
+  const std::string held = "[[boundary]]\non = \"bottom\"\nfix = \"normal\"\n";
+  EXPECT_EQ(of_mesh(grid(8, 2, 1.0, 1.0), on_top + held,
+                    {"soil.specimen.skeleton={law=\"elastic\",young=1e7,poisson=0.3}",
+                     "time.scheme=implicit"}),
+            Warnings{});
   EXPECT_EQ(of_mesh(grid(8, 2, 1.0, 1.0), on_top), Warnings{});
   EXPECT_EQ(of_mesh(grid(8, 1, 1.0, 1.0), on_top), Warnings{too_few("specimen")});
   EXPECT_EQ(of_mesh(grid(8, 1, 1.0, 1.0), ""), Warnings{});

@@ -224,5 +224,32 @@ TEST(LaggedPreconditioner, TwoThreadsGiveTheSameBits) {
   EXPECT_EQ(solution(1), solution(2));
 }
 
+/// Multigrid that does not converge, as for strongly layered soil whose bedding is oblique.
+class UselessFactor final : public Factor {
+ public:
+  void factorise(const Eigen::SparseMatrix<double>&) override {}
+  void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) override { x = rhs; }
+  [[nodiscard]] bool is_exact() const override { return false; }
+};
+
+TEST(LaggedPreconditioner, FactorsAMatrixThatIterationsDoNotSolve) {
+  // Of a chain of n conductances conjugate gradients alone take n iterations.
+  constexpr int n = 3000;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, 2.0);
+    if (i > 0) entries.emplace_back(i, i - 1, -1.0);
+    if (i + 1 < n) entries.emplace_back(i, i + 1, -1.0);
+  }
+  Eigen::SparseMatrix<double> matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n);
+  rhs[n - 1] = 1.0;
+  LaggedPreconditioner lagged(1, {}, std::make_unique<UselessFactor>());
+  const Eigen::VectorXd x =
+      lagged.solve({matrix, rhs, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Constant(n, 1e-14)});
+  for (int i = 0; i < n; ++i) EXPECT_NEAR(x[i], (i + 1.0) / (n + 1.0), 1e-9);
+}
+
 }  // namespace lagged_preconditioner_test
 }  // namespace suffuse

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "files/layout.hpp"
@@ -373,6 +374,26 @@ TEST_F(FromMovedSoil, GoesOnFromItsStressAndItsPlace) {
   EXPECT_NEAR(ledger.column("eroded").back(),
               all.column("eroded").back() - earlier.column("eroded").back(),
               2e-2 * ledger.column("eroded").back());
+}
+
+/// A relative path is one from the folder of the scene, wherever the programs run: another folder
+/// of this name there is not taken.
+TEST_F(FromEarlierOnce, TheFolderLiesBesideTheScene) {
+  run_first(mode());
+  const std::string at_home = place_.path("");
+  const test::Mode next = second(mode());
+  std::ofstream(place_.path("second.toml")) << next.scene;
+  std::vector<std::string> words{test::program_folder() + "/suffuse-mesher", "second.toml", "-o",
+                                 place_.path("second.case.h5")};
+  for (const std::string& set : next.sets) words.insert(words.end(), {"--set", set});
+  const Outcome made =
+      Process(words, place_.path("mesher.txt"), [&] { fs::current_path(at_home); }).wait();
+  ASSERT_EQ(made.code, 0) << made.error;
+  const std::string elsewhere = place_.path("elsewhere");
+  fs::create_directories(elsewhere + "/a.results");
+  const Outcome outcome = place_.solve(place_.path("second.case.h5"), place_.path("b.results"), {},
+                                       [&] { fs::current_path(elsewhere); });
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
 }
 
 TEST_F(FromEarlierOnce, WhatDoesNotFitIsRefused) {

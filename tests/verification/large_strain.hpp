@@ -20,6 +20,7 @@ namespace suffuse::model {
 /// Largest deviations of a column from an exact solution.
 struct Deviation {
   double settlement = 0.0;  ///< of the highest point, which lies below the surface
+  double surface = 0.0;     ///< settlement of the surface, by the volume of the soil
   double height = 0.0;      ///< of the soil, by its volume, at the end
   double pressure = 0.0;
   long steps = 0;
@@ -67,6 +68,8 @@ inline Deviation deviation_at_large_strain(const std::string& law, int rows, dou
     const double base = pressure_at(run, 0.0) / load;
     worst.settlement =
         std::max(worst.settlement, std::abs(settlement - row.number("settlement_over_H")));
+    worst.surface =
+        std::max(worst.surface, std::abs(1.0 - height - row.number("settlement_over_H")));
     worst.height = std::abs(height - (1.0 - row.number("settlement_over_H")));
     worst.pressure =
         std::max(worst.pressure, std::abs(base - row.number("base_pressure_over_load")));

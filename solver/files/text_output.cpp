@@ -1,4 +1,4 @@
-#include "driver/text_output.hpp"
+#include "files/text_output.hpp"
 
 #include <fstream>
 #include <iostream>
