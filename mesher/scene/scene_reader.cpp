@@ -489,13 +489,7 @@ class SceneReader {
 SceneDocument read_document(const std::string& text, const std::string& path,
                             const std::vector<std::string>& overrides, const FileLoader& load) {
   SceneReader reader(text, path, overrides, load);
-  SceneDocument document{.path = path,
-                         .folder = {},
-                         .text = text,
-                         .overrides = overrides,
-                         .scene = {},
-                         .where = {},
-                         .files = {}};
+  SceneDocument document{path, {}, text, overrides, {}, {}, {}};
   document.scene = reader.read();
   document.where = reader.where();
   document.files = reader.files();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary/free_water.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {
@@ -66,6 +67,10 @@ BoundaryLoads<Dim>::BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soi
     if (!boundary.traction && !boundary.head) continue;
     if (boundary.is_well()) continue;  // it stands still, whatever its water presses on
     std::vector<int> faces = faces_of(grid, boundary.on);
+    if (!boundary.traction && has_free_water(grid, soils)) {
+      water_.emplace_back(b, std::move(faces));
+      continue;
+    }
     std::erase_if(faces, [&](int f) { return sorted.is_empty(grid.face_left[f]); });
     if (faces.empty()) continue;
     boundary_.push_back(b);
@@ -84,12 +89,27 @@ void BoundaryLoads<Dim>::add(const PointsByElement& sorted, const std::vector<do
       add_traction(k, sorted, soil_volume, Eigen::Map<const Vector<Dim>>(all.data()), loads);
       continue;
     }
-    const double head = boundary.head->value(time);
-    const auto pressure = [&](const Vector<Dim>& x) {
-      return outside_pressure<Dim>(scene_, head, x);
-    };
-    surfaces_[k].add_pressures(grid_, sorted, pressure, loads);
+    add_water(surfaces_[k], boundary, sorted, time, loads);
   }
+  for (const auto& [b, faces] : water_) {
+    std::vector<int> beside_soil;
+    for (const int f : faces) {
+      if (!sorted.is_empty(grid_.face_left[f])) beside_soil.push_back(f);
+    }
+    add_water(LoadedSurface<Dim>(grid_, sorted, beside_soil), scene_.boundaries[b], sorted, time,
+              loads);
+  }
+}
+
+template <int Dim>
+void BoundaryLoads<Dim>::add_water(const LoadedSurface<Dim>& surface,
+                                   const BoundaryCondition& boundary, const PointsByElement& sorted,
+                                   double time, NodalLoads<Dim>& loads) const {
+  const double head = boundary.head->value(time);
+  const auto pressure = [&](const Vector<Dim>& x) {
+    return outside_pressure<Dim>(scene_, head, x);
+  };
+  surface.add_pressures(grid_, sorted, pressure, loads);
 }
 
 template <int Dim>

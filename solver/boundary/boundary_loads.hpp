@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "boundary/loads.hpp"
@@ -45,6 +46,8 @@ class BoundaryLoads {
   void archive(auto& archive) { archive(surfaces_); }
 
  private:
+  void add_water(const LoadedSurface<Dim>& surface, const BoundaryCondition& boundary,
+                 const PointsByElement& sorted, double time, NodalLoads<Dim>& loads) const;
   void add_traction(std::size_t surface, const PointsByElement& sorted,
                     const std::vector<double>& soil_volume, const Vector<Dim>& traction,
                     NodalLoads<Dim>& loads) const;
@@ -54,6 +57,9 @@ class BoundaryLoads {
   std::vector<int> boundary_;  ///< per surface: index of the scene's boundary entry
   std::vector<LoadedSurface<Dim>> surfaces_;
   std::vector<VirtualStress<Dim>> stress_;  ///< per surface
+  /// Boundaries, by index, and faces that outer water presses on beside soil. Where soil can give
+  /// way to free water they stand still: water fills the room and presses on (`add_free_water`).
+  std::vector<std::pair<int, std::vector<int>>> water_;
 };
 
 }  // namespace suffuse

@@ -1,10 +1,22 @@
 #include "boundary/free_water.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "boundary/loads.hpp"
 
 namespace suffuse {
+namespace {
+
+/// Where a pressure that varies linearly over a face has the mean that acts on its `a`-th node.
+template <int Dim>
+Vector<Dim> weighted_place(const Grid<Dim>& grid, const std::array<int, Dim>& face, std::size_t a) {
+  Vector<Dim> sum = grid.mesh.nodes[face[a]];
+  for (const int i : face) sum += grid.mesh.nodes[i];
+  return sum / (Dim + 1);
+}
+
+}  // namespace
 
 template <int Dim>
 bool has_free_water(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
@@ -31,13 +43,17 @@ void add_free_water(const Grid<Dim>& grid, const PointsByElement& sorted,
       return Vector<Dim>(pressure[e] * grid.volume[e] * grid.shape_gradient[e][a]);
     };
     loads.add(nodes, of_pressure, EdgeShare<Dim>::stress, of_soil);
-    // The water presses on the outer boundary too, not on the soil beside it.
+    // The outer boundary carries the water beside it, not the soil at its edge.
     for (int k = 0; k <= Dim; ++k) {
       if (grid.across(e, k) >= 0) continue;
-      const Vector<Dim> against = of_pressure(k);  // -p A n / d
-      loads.add(
-          grid.face_nodes[grid.element_face[e][k]], [&](std::size_t) { return against; },
-          EdgeShare<Dim>::face, of_soil);
+      const auto& face = grid.face_nodes[grid.element_face[e][k]];
+      const auto against = [&](std::size_t a) {
+        const Vector<Dim> place =
+            weighted_place<Dim>(grid, face, a) - element_centroid(grid.mesh, e);
+        const double p = pressure[e] + liquid_mass[e] * g.dot(place);
+        return Vector<Dim>(p * grid.volume[e] * grid.shape_gradient[e][k]);  // -p A n / d
+      };
+      loads.add(face, against, EdgeShare<Dim>::face, of_soil);
     }
   }
 }

@@ -1,8 +1,10 @@
 #include "boundary/loads.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "grid/near_element.hpp"
 #include "mesh/place_text.hpp"
@@ -25,6 +27,56 @@ std::array<std::array<double, Dim>, Dim> places_on_face() {
     result[j][j] = near;
   }
   return result;
+}
+
+/// Area of a face with these corners, times its normal, m2.
+template <int Dim>
+Vector<Dim> vector_area(const std::vector<Vector<Dim>>& corner, const std::array<int, Dim>& face) {
+  const Vector<Dim> along = corner[face[1]] - corner[face[0]];
+  if constexpr (Dim == 2) {
+    return {along[1], -along[0]};
+  } else {
+    return 0.5 * along.cross(corner[face[2]] - corner[face[0]]);
+  }
+}
+
+/// The element that holds a place of a surface, or this one if the place is slightly above the
+/// mesh.
+template <int Dim>
+int element_beside(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
+  const int e = element_at(grid, element, x);
+  if (e >= 0) return e;
+  if (std::ranges::min(barycentric(grid.mesh, element, x)) > -allowed_above) return element;
+  throw NumericalError("the loaded surface moves to " + place_text<Dim>(x) +
+                       ", which is far outside the mesh; make the mesh larger");
+}
+
+/// The soil that carries a load at a place: from an element without soil through the faces most
+/// opposite to the surface's normal.
+template <int Dim>
+PointPlace<Dim> carrier(const Grid<Dim>& grid, const PointsByElement& sorted, int element,
+                        const Vector<Dim>& normal, const Vector<Dim>& x) {
+  constexpr int farthest = 4;  // most elements between a surface and its soil
+  int e = element;
+  for (int step = 0; step < farthest && sorted.is_empty(e); ++step) {
+    int next = -1;
+    double lowest = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      const Vector<Dim> out = grid.outward_normal(e, k);
+      const double along = out.dot(normal) / (out.norm() * normal.norm());
+      if (grid.across(e, k) < 0 || along >= lowest) continue;
+      lowest = along;
+      next = grid.across(e, k);
+    }
+    if (next < 0) break;
+    e = next;
+  }
+  if (sorted.is_empty(e)) {
+    throw NumericalError("the loaded surface at " + place_text<Dim>(x) +
+                         " has lost its soil: there is none within " + std::to_string(farthest) +
+                         " elements below");
+  }
+  return {e, barycentric(grid.mesh, e, x)};
 }
 
 }  // namespace
@@ -101,51 +153,47 @@ Vector<Dim> downwards(const std::array<double, 3>& gravity) {
 template <int Dim>
 LoadedSurface<Dim>::LoadedSurface(const Grid<Dim>& grid, const PointsByElement& sorted,
                                   const std::vector<int>& faces) {
+  std::map<int, int> corner_of_node;
   for (const int f : faces) {
     const int e = soil_beside(grid, sorted, f);
+    std::array<int, Dim> corners;
+    for (int k = 0; k < Dim; ++k) {
+      const int node = grid.face_nodes[f][k];
+      const auto [known, is_new] = corner_of_node.emplace(node, static_cast<int>(corner_.size()));
+      corners[k] = known->second;
+      if (is_new) corner_.push_back(grid.mesh.nodes[node]);
+    }
     const Vector<Dim> normal = e == grid.face_left[f] ? grid.face_normal[f] : -grid.face_normal[f];
-    for (const std::array<double, Dim>& share : places_on_face<Dim>()) {
-      Vector<Dim> x = Vector<Dim>::Zero();
-      for (int k = 0; k < Dim; ++k) x += share[k] * grid.mesh.nodes[grid.face_nodes[f][k]];
-      position_.push_back(x);
+    if (vector_area<Dim>(corner_, corners).dot(normal) < 0.0) std::swap(corners[0], corners[1]);
+    face_.push_back(corners);
+    for (int j = 0; j < Dim; ++j) {
       element_.push_back(e);
       area_.push_back(normal.norm() / Dim);
-      normal_.push_back(normal / Dim);
     }
   }
+  follow_corners(grid);
 }
 
-/// Goes from an element without soil through the faces most opposite to the surface's normal.
 template <int Dim>
-PointPlace<Dim> LoadedSurface<Dim>::carrier(const Grid<Dim>& grid, const PointsByElement& sorted,
-                                            int place) const {
-  constexpr int farthest = 4;  // most elements between a surface and its soil
-  int e = element_[place];
-  for (int step = 0; step < farthest && sorted.is_empty(e); ++step) {
-    int next = -1;
-    double lowest = 0.0;
-    for (int k = 0; k <= Dim; ++k) {
-      const Vector<Dim> out = grid.outward_normal(e, k);
-      const double along = out.dot(normal_[place]) / (out.norm() * normal_[place].norm());
-      if (grid.across(e, k) < 0 || along >= lowest) continue;
-      lowest = along;
-      next = grid.across(e, k);
+void LoadedSurface<Dim>::follow_corners(const Grid<Dim>& grid) {
+  position_.clear();
+  normal_.clear();
+  for (const std::array<int, Dim>& corners : face_) {
+    for (const std::array<double, Dim>& share : places_on_face<Dim>()) {
+      Vector<Dim> x = Vector<Dim>::Zero();
+      for (int k = 0; k < Dim; ++k) x += share[k] * corner_[corners[k]];
+      int& e = element_[position_.size()];
+      e = element_beside(grid, e, x);
+      position_.push_back(x);
+      normal_.push_back(vector_area<Dim>(corner_, corners) / Dim);
     }
-    if (next < 0) break;
-    e = next;
   }
-  if (sorted.is_empty(e)) {
-    throw NumericalError("the loaded surface at " + place_text<Dim>(position_[place]) +
-                         " has lost its soil: there is none within " + std::to_string(farthest) +
-                         " elements below");
-  }
-  return {e, barycentric(grid.mesh, e, position_[place])};
 }
 
 template <int Dim>
 void LoadedSurface<Dim>::add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
                                    const Vector<Dim>& force, NodalLoads<Dim>& loads) const {
-  loads.add_at(carrier(grid, sorted, place), force);
+  loads.add_at(carrier(grid, sorted, element_[place], normal_[place], position_[place]), force);
 }
 
 template <int Dim>
@@ -166,27 +214,19 @@ void LoadedSurface<Dim>::add_pressure(const Grid<Dim>& grid, const PointsByEleme
 template <int Dim>
 void LoadedSurface<Dim>::move(const Grid<Dim>& grid, const PointsByElement& sorted,
                               const NodeVectors<Dim>& displacement) {
-  for (int i = 0; i < static_cast<int>(area_.size()); ++i) {
-    const PointPlace<Dim> place = carrier(grid, sorted, i);
-    Eigen::Matrix<double, Dim, Dim> f = Eigen::Matrix<double, Dim, Dim>::Identity();
-    for (int a = 0; a <= Dim; ++a) {
-      f += displacement[grid.mesh.elements[place.element][a]] *
-           grid.shape_gradient[place.element][a].transpose();
-    }
-    position_[i] += interpolate(grid, place, displacement);
-    normal_[i] = f.determinant() * (f.inverse().transpose() * normal_[i]);
-    const int e = element_at(grid, place.element, position_[i]);
-    const auto above = barycentric(grid.mesh, place.element, position_[i]);
-    if (e < 0 && *std::ranges::min_element(above) > -allowed_above) {
-      element_[i] = place.element;
-      continue;
-    }
-    if (e < 0) {
-      throw NumericalError("the loaded surface moves to " + place_text<Dim>(position_[i]) +
-                           ", which is far outside the mesh; make the mesh larger");
-    }
-    element_[i] = e;
+  // A corner at the edge of the soil may lie outside: it moves with the soil of the next place of
+  // each of its faces.
+  std::vector<Vector<Dim>> sum(corner_.size(), Vector<Dim>::Zero());
+  std::vector<int> faces(corner_.size(), 0);
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    const int c = face_[i / Dim][i % Dim];
+    const int e = carrier(grid, sorted, element_[i], normal_[i], position_[i]).element;
+    const PointPlace<Dim> place{e, barycentric(grid.mesh, e, corner_[c])};
+    sum[c] += interpolate(grid, place, displacement);
+    ++faces[c];
   }
+  for (std::size_t c = 0; c < corner_.size(); ++c) corner_[c] += sum[c] / faces[c];
+  follow_corners(grid);
 }
 
 template void add_point_forces(const Grid<2>&, const SolidPoints<2>&, const std::vector<Vector<2>>&,

@@ -53,7 +53,9 @@ std::vector<char> nodes_of_soil(const Grid<Dim>& grid, const PointsByElement& so
 
 /// A surface of the soil that carries a load. It starts on faces of the mesh and moves with the
 /// soil, so it may come to lie inside elements: places on it represent shares of its area. (Loading
-/// the topmost solid points instead would put the load below the surface.)
+/// the topmost solid points instead would put the load below the surface.) Its faces move with
+/// their corners, which they share: the area in any direction does not change but at its border,
+/// however uneven the motion of the nodes beside the soil is.
 template <int Dim>
 class LoadedSurface {
  public:
@@ -86,14 +88,17 @@ class LoadedSurface {
             const NodeVectors<Dim>& displacement);
 
   [[nodiscard]] const std::vector<Vector<Dim>>& places() const { return position_; }
-  void archive(auto& archive) { archive(position_, element_, area_, normal_); }
+  void archive(auto& archive) { archive(corner_, face_, position_, element_, area_, normal_); }
 
  private:
-  [[nodiscard]] PointPlace<Dim> carrier(const Grid<Dim>& grid, const PointsByElement& sorted,
-                                        int place) const;
+  /// Finds the places and normals of the faces from their corners.
+  void follow_corners(const Grid<Dim>& grid);
   void add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
                  const Vector<Dim>& force, NodalLoads<Dim>& loads) const;
 
+  std::vector<Vector<Dim>> corner_;         ///< m
+  std::vector<std::array<int, Dim>> face_;  ///< corners, in the order of their vector area
+  // Per place, `Dim` of each face:
   std::vector<Vector<Dim>> position_;  ///< m
   std::vector<int> element_;           ///< of the soil below
   std::vector<double> area_;           ///< at the start, m2

@@ -552,7 +552,7 @@ TEST(LoadedSurface, RefusesToLeaveTheMeshOrItsSoil) {
   };
   LoadedHalf m;
   EXPECT_EQ(message_of([&] { m.displace_surface(Eigen::Matrix2d::Zero(), Vector<2>(0.0, 1.6)); }),
-            "the loaded surface moves to (0.0528312, 2.1), which is far outside the mesh; make "
+            "the loaded surface moves to (0.197169, 2.1), which is far outside the mesh; make "
             "the mesh larger");
   LoadedHalf empty;
   empty.sorted = PointsByElement(empty.mesh.element_count(), {});

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iostream>
 #include <limits>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "moving_soil.hpp"
 
@@ -122,6 +125,59 @@ TEST(WaterOnMovingSoil, OfOnePressureMovesNoEdgeOfAPit) {
   const auto end = run.run({3.0 * second}).states.back();
   std::cout << "displacement " << end.history.displacement_max << " m\n";
   EXPECT_LT(end.history.displacement_max, 1e-5 * 1000.0 * 9.81 * 10.0 / modulus);
+}
+
+/// Settlement of a column, m, whose water seeps down through it: tau = E ln J with the effective
+/// stress tau/J of the buoyant weight and a head that falls evenly over the present height.
+double settlement_by_seepage(double height, double young, double buoyancy, double pressure) {
+  constexpr int slices = 2000;
+  const double slice = height / slices;
+  std::vector<double> stretch(slices, 1.0);
+  for (int k = 0; k < 100; ++k) {
+    const double present = slice * std::reduce(stretch.begin(), stretch.end());
+    double depth = 0.0;
+    for (int i = 0; i < slices; ++i) {
+      const double weight = buoyancy * slice * (i + 0.5);
+      const double stress = weight + pressure * (depth + 0.5 * slice * stretch[i]) / present;
+      depth += slice * stretch[i];
+      stretch[i] = std::exp((weight - stress * stretch[i]) / young);
+    }
+  }
+  return height - slice * std::reduce(stretch.begin(), stretch.end());
+}
+
+/// Soil under 10 m of water sinks through elements as the head below it falls. The water follows
+/// its surface, as load on the faces that have moved or as free water that fills the room.
+TEST(WaterOnMovingSoil, FollowsASurfaceThatSinks) {
+  constexpr double young = 1e6;
+  constexpr double height = 2.0;
+  constexpr double weight = 1000.0 * 9.81;
+  const double exact = settlement_by_seepage(height, young, 0.6 * 1650.0 * 9.81, 9.0 * weight);
+  for (const bool beside_a_pit : {false, true}) {
+    Scene scene = elastic_column();
+    scene.gravity = {0.0, -9.81, 0.0};
+    scene.water_level = 12.0;
+    scene.soils[0].conductivity = 1e-4;
+    scene.soils[0].skeleton.young = young;
+    scene.time.end = 4000.0;
+    scene.time.tolerance = 1e-3;
+    BoundaryCondition top;
+    top.on = "top";
+    top.head = TimeFunction{{{0.0, 12.0}}};
+    BoundaryCondition bottom = model::fixed_on("bottom", Fixing::both);
+    bottom.head = TimeFunction{{{0.0, 12.0}, {1000.0, 3.0}}};
+    scene.boundaries = {top, bottom};
+    hold(scene);
+    Mesh<2> mesh = model::crossed_mesh(4, 20, 0.4, height);
+    if (beside_a_pit) {
+      mesh = model::under_water(std::move(mesh),
+                                [](const Vector<2>& x) { return x[0] < 0.3 || x[1] < 1.9; });
+    }
+    model::ModelRun run(model::make_case(std::move(mesh), scene));
+    const double settlement = run.run({4000.0}).states.back().history.settlement_max;
+    std::cout << "settlement " << settlement << ", exact " << exact << " m\n";
+    EXPECT_NEAR(settlement, exact, 0.03 * exact) << beside_a_pit;
+  }
 }
 
 }  // namespace water_on_moving_soil_test
