@@ -1,6 +1,7 @@
 #include "figures/soil_figures.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "figures/run_curves.hpp"
 
@@ -92,8 +93,7 @@ Chart masses_chart(const std::vector<ResultsReader>& runs) {
                            ? exact_series(runs[r], curves.soil(r), masses.back().t)
                            : std::vector<Masses>{};
     for (const auto& quantity : quantities) {
-      if (!exact.empty()) {
-        const auto line = series(exact, quantity);
+      if (const auto line = series(exact, quantity); !exact.empty() && !std::isnan(line.y[0])) {
         if (&quantity == quantities.data()) {
           curves.add_exact(r, line.t, line.y);
         } else {

@@ -94,8 +94,9 @@ double prescribed_flux(const End& end) {
 }
 
 /// Integral of 1/k through all soil along the column, s; not a number with drag that is not linear
-/// or a conductivity that does not last.
+/// or a conductivity or viscosity that does not last.
 double resistance(const Scene& scene, const Mesh<2>& mesh, double width) {
+  if (scene.liquid.viscosity_model.depends_on_concentration()) return unset;
   double total = 0.0;
   for (int e = 0; e < mesh.element_count(); ++e) {
     const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
@@ -103,7 +104,8 @@ double resistance(const Scene& scene, const Mesh<2>& mesh, double width) {
     const bool lasts =
         !soil->conductivity_law->depends_on_porosity() || !soil->erosion.law->erodes();
     if (soil->drag != SoilDrag::darcy || !lasts) return unset;
-    total += element_volume(mesh, e) / (width * soil->conductivity);
+    const double conductivity = soil->conductivity / soil->resistance_along(Vector<2>(0.0, 1.0));
+    total += element_volume(mesh, e) / (width * conductivity);
   }
   return total;
 }
@@ -126,6 +128,16 @@ bool lasts(const Soil& soil) {
          !soil.deposition.deposits();
 }
 
+/// Whether the flow is steady from the start on and the same across the column: the porosity is the
+/// scene's, no soil moves or drains, and none conducts better at some places or at an angle to the
+/// column.
+bool flows_evenly(const Scene& scene) {
+  return scene.initial_from.empty() && std::ranges::none_of(scene.soils, [](const Soil& soil) {
+           const bool tilted = soil.anisotropy() != 1.0 && std::fmod(soil.bedding, 90.0) != 0.0;
+           return soil.skeleton.moves() || soil.drains() || soil.field.varies() || tilted;
+         });
+}
+
 /// The only soil that erodes, if its porosity is uniform.
 const Soil* eroding_soil(const Scene& scene, const Mesh<2>& mesh) {
   const Soil* found = nullptr;
@@ -142,7 +154,7 @@ const Soil* eroding_soil(const Scene& scene, const Mesh<2>& mesh) {
 
 std::optional<ColumnFlow> column_flow(const ResultsReader& run) {
   const Scene& scene = run.scene().scene;
-  if (scene.geometry.shape != "column") return std::nullopt;
+  if (scene.geometry.shape != "column" || !flows_evenly(scene)) return std::nullopt;
   const Mesh<2> mesh = run.mesh();
   const Soil* soil = eroding_soil(scene, mesh);
   const auto ends = find_ends(scene, mesh);

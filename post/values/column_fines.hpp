@@ -23,9 +23,10 @@ struct ColumnFlow {
 
 /// The steady flow through the one eroding soil of a built-in column, or nothing where the scene
 /// has no exact solution: another geometry, several eroding soils, a gradient of porosity, fines
-/// that enter, conditions on the sides, or boundary values that change in time. The flux must
-/// follow from a boundary (`darcy_flux`, `velocity` times a constant porosity) or from the heads at
-/// both ends (k i, Darcy's drag, constant conductivity, no gravity).
+/// that enter, conditions on the sides, boundary values that change in time, a start from an
+/// earlier run, soil that moves or drains, a random field or tilted bedding. The flux must follow
+/// from a boundary (`darcy_flux`, `velocity` times a constant porosity) or from the heads at both
+/// ends (k i, Darcy's drag, constant conductivity and viscosity, no gravity).
 std::optional<ColumnFlow> column_flow(const ResultsReader& run);
 
 class ColumnFines {

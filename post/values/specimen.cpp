@@ -46,6 +46,7 @@ template <int Dim>
 Specimen specimen_of(const Scene& scene, const Mesh<Dim>& mesh) {
   const bool any = std::any_of(scene.soils.begin(), scene.soils.end(), has_law);
   Specimen found;
+  found.starts_from_scene = scene.initial_from.empty();
   std::vector<const Soil*> soils;
   for (int r = 0; r < static_cast<int>(mesh.region_names.size()); ++r) {
     const Soil* soil = scene.find_soil(mesh.region_names[r]);
@@ -88,9 +89,10 @@ double integrate(const Specimen& specimen, double t,
 }
 
 bool has_exact_porosity(const Specimen& specimen) {
-  return std::ranges::all_of(specimen.portions, [](const Portion& p) {
-    return has_exact_porosity(p.soil.erosion_model()) && !p.soil.deposition.deposits();
-  });
+  return specimen.starts_from_scene && std::ranges::all_of(specimen.portions, [](const Portion& p) {
+           return has_exact_porosity(p.soil.erosion_model()) && !p.soil.deposition.deposits() &&
+                  !p.soil.skeleton.moves();
+         });
 }
 
 double exact_mean_porosity(const Specimen& specimen, double t) {
@@ -144,8 +146,8 @@ Masses exact_masses(const Specimen& specimen, double water_density, double t) {
   m.eroded = integrate(specimen, t, [](const Soil& s, double before, double now) {
     return (now - before) * s.grain_density;
   });
-  m.liquid = m.eroded + integrate(specimen, t, [&](const Soil&, double before, double) {
-               return before * water_density;
+  m.liquid = m.eroded + integrate(specimen, t, [&](const Soil& s, double before, double) {
+               return s.drains() ? unset : before * water_density;
              });
   return m;
 }

@@ -25,6 +25,8 @@ struct Specimen {
   std::vector<Portion> portions;
   double volume = 0.0;       ///< m3 (per metre of thickness in 2D)
   bool has_all_soil = true;  ///< false when some other soil does not erode
+  /// Whether the porosity at the start is the scene's, and not that of an earlier run.
+  bool starts_from_scene = true;
 };
 
 /// The specimen of a run. Throws FileError.
@@ -38,8 +40,9 @@ std::string specimen_name(bool has_all_soil);
 double integrate(const Specimen& specimen, double t,
                  const std::function<double(const Soil&, double, double)>& density);
 
-/// Whether every soil of the specimen has an exact porosity that does not depend on the flow.
-/// Otherwise the exact quantities below are NaN.
+/// Whether the scene alone determines the porosity of the specimen: every soil starts from the
+/// scene's porosity, is rigid, and erodes in a way that does not depend on the flow. Otherwise the
+/// exact quantities below are NaN or wrong.
 bool has_exact_porosity(const Specimen& specimen);
 
 /// Volume mean of the exact porosity.
@@ -70,7 +73,8 @@ struct Masses {
 std::vector<Masses> computed_masses(const ResultsReader& run, const Specimen& specimen);
 
 /// Exact masses at time t, as far as they do not depend on the flow: solid, erodible, eroded, and
-/// liquid in closed accounting; the others are zero. `water_density` in kg/m3.
+/// liquid in closed accounting, which is NaN where air can enter the pores; the others are zero.
+/// `water_density` in kg/m3.
 Masses exact_masses(const Specimen& specimen, double water_density, double t);
 
 /// Throws FileError when a table has fewer than two times, too few for a curve.

@@ -179,5 +179,51 @@ TEST(ColumnFlow, IsNotThereWhereNothingIsExact) {
   EXPECT_FALSE(flow_of(scratch, c, "law = \"constant\"", "law = \"none\""));
 }
 
+/// The unit square in the implicit scheme, which knows every law.
+Case<2> implicit_square() {
+  Case<2> c = testing::unit_square_case();
+  std::string& text = c.document.text;
+  text.replace(text.find("explicit"), 8, "implicit");
+  return c;
+}
+
+TEST(ColumnFlow, CrossesTheBeddingAndIsNotThereWhereTheBeddingIsTilted) {
+  const ScratchFolder scratch;
+  const auto with = [&](const std::string& soil) {
+    return flow_of(scratch, implicit_square(), "conductivity = 2.0e-2", soil);
+  };
+  const double gradient = 6000.0 / (1000.0 * 9.81);
+  auto flow = with("conductivity = [2.0e-2, 5.0e-3]");
+  ASSERT_TRUE(flow);
+  EXPECT_NEAR(flow->flux, 5e-3 * gradient, 1e-16);
+  flow = with("conductivity = [2.0e-2, 5.0e-3]\nbedding = 90.0");
+  ASSERT_TRUE(flow);
+  EXPECT_NEAR(flow->flux, 2e-2 * gradient, 1e-16);
+  EXPECT_FALSE(with("conductivity = [2.0e-2, 5.0e-3]\nbedding = 20.0"));
+}
+
+TEST(ColumnFlow, IsNotThereWhereTheSceneDoesNotDetermineIt) {
+  const ScratchFolder scratch;
+  const Case<2> c = implicit_square();
+  const std::string soil = "conductivity = 2.0e-2";
+  EXPECT_TRUE(flow_of(scratch, c, soil, soil));
+  EXPECT_FALSE(flow_of(scratch, c, soil, soil + "\nfield = {variation = 0.5, correlation = 0.3}"));
+  EXPECT_FALSE(
+      flow_of(scratch, c, soil, soil + "\nretention = {model = \"gardner\", alpha = 2.0}"));
+  EXPECT_FALSE(flow_of(scratch, c, soil,
+                       soil + "\nskeleton = {law = \"elastic\", young = 1e7, poisson = 0.3}"));
+  EXPECT_FALSE(flow_of(scratch, c, "[time]", "[initial]\nfrom = \"before.results\"\n[time]"));
+}
+
+TEST(ColumnFlow, OfALiquidThatThickensComesFromAFluxAlone) {
+  const ScratchFolder scratch;
+  const std::string liquid = "viscosity = 1.0e-3";
+  const std::string thickens = liquid + "\nviscosity_law = \"krieger-dougherty\"";
+  EXPECT_FALSE(flow_of(scratch, implicit_square(), liquid, thickens));
+  const auto flow = flow_of(scratch, testing::double_point::column(), liquid, thickens);
+  ASSERT_TRUE(flow);
+  EXPECT_EQ(flow->flux, 0.02);
+}
+
 }  // namespace column_fines_test
 }  // namespace suffuse

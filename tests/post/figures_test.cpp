@@ -63,6 +63,24 @@ TEST(Figures, PorositySvgHasItsTexts) {
   }
 }
 
+// The pores of soil that air can enter hold an unknown mass of liquid.
+TEST(Figures, SoilThatDrainsHasExactSolidAndErodedMassesAlone) {
+  const ScratchFolder scratch;
+  Case<2> c = testing::unit_square_case();
+  c.document = parse_scene(c.document.text, "drains.toml",
+                           {"time.scheme=implicit", "soil.specimen.retention.model=gardner",
+                            "soil.specimen.retention.alpha=2"});
+  {
+    ResultsWriter<2> writer(scratch / "run.results", c);
+    testing::write_rows(writer, 120.0, [](double t) { return 0.3 + 1e-4 * t; });
+  }
+  const Chart chart = make_figure("masses", {ResultsReader(scratch / "run.results")}).front();
+  EXPECT_EQ(std::ranges::count(chart.curves, false, &Curve::markers), 2);
+  for (const Curve& curve : chart.curves) {
+    for (const double y : curve.y) EXPECT_TRUE(std::isfinite(y)) << curve.label;
+  }
+}
+
 TEST(Figures, FluxLawHasNoExactCurveWithoutTheFlow) {
   const ScratchFolder scratch;
   const Case<2> c = testing::unit_square_case("flux", "flux", 4.0);

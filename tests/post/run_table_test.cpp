@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "post/synthetic_results.hpp"
+#include "values/run_names.hpp"
 
 namespace suffuse {
 namespace run_table_test {
@@ -117,6 +118,34 @@ TEST(RunTable, ErrorsAreSharesOfTheErodibleMass) {
     EXPECT_NEAR(std::stod(row[name]), 50.0, 1e-9) << name;
   }
   EXPECT_EQ(row["status"], "stopped without notice");
+}
+
+/// The row of a run of the unit square whose scene is changed by `changes`.
+std::map<std::string, std::string> changed_row(const std::vector<std::string>& changes) {
+  const ScratchFolder scratch;
+  Case<2> c = testing::unit_square_case();
+  c.document = parse_scene(c.document.text, "changed.toml", changes);
+  {
+    ResultsWriter<2> writer(scratch / "run.results", c);
+    testing::write_rows(writer, 120.0, [](double t) { return 0.3 + 5e-4 * t; });
+  }
+  return parsed(run_table({ResultsReader(scratch / "run.results")})).front();
+}
+
+// The porosity of an earlier run and that of soil that deforms are not the scene's.
+TEST(RunTable, HasNoExactValuesThatTheSceneDoesNotDetermine) {
+  const std::vector<std::vector<std::string>> scenes{
+      {"initial.from=before.results"},
+      {"time.scheme=implicit", "soil.specimen.skeleton.law=elastic",
+       "soil.specimen.skeleton.young=1e7", "soil.specimen.skeleton.poisson=0.3"}};
+  EXPECT_NE(changed_row({})["error_porosity_percent"], "");
+  for (const auto& changes : scenes) {
+    auto row = changed_row(changes);
+    for (const auto* name : {"complete_exact", "error_porosity_percent", "error_solid_percent",
+                             "error_eroded_percent", "error_fines_relative", "darcy_flux"}) {
+      EXPECT_EQ(row[name], "") << name << ", " << changes.front();
+    }
+  }
 }
 
 }  // namespace run_table_test
