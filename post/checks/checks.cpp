@@ -10,6 +10,7 @@
 #include "checks/filter_checks.hpp"
 #include "checks/heave_safety.hpp"
 #include "checks/section_checks.hpp"
+#include "checks/unseen_peaks.hpp"
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
 #include "files/number_text.hpp"
@@ -180,6 +181,7 @@ CheckReport check_run(const ResultsReader& results, const CheckSettings& setting
   add([&] { return stability_checks(results); });
   add([&] { return filter_checks(results); });
   add([&] { return backward_erosion_checks(results, settings.backward_erosion); });
+  report.unseen_peaks = unseen_peaks(results);
   report.not_looked_at = Gaps(results, report, settings).sentences();
   return report;
 }
@@ -209,6 +211,7 @@ std::string check_text(const CheckReport& report, const TextStyle& style) {
   }
   for (const CheckRow& row : rows) text += sentences_of(row, style.time);
   text += "not looked at:\n";
+  for (const std::string& sentence : report.unseen_peaks) text += "  " + sentence + "\n";
   for (const std::string& sentence : report.not_looked_at) text += "  " + sentence + "\n";
   for (const std::string& message : report.refused) text += "  not possible: " + message + "\n";
   return text;

@@ -16,6 +16,8 @@ struct CheckReport {
   std::vector<CheckRow> rows;
   /// Mechanisms that nothing here judges, by phase of a failure: "breach: overtopping, ...".
   std::vector<std::string> not_looked_at;
+  /// Highest heads and pressures that no snapshot has: sentences.
+  std::vector<std::string> unseen_peaks{};
   /// Why checks could not be made whose settings do not suit the model: messages.
   std::vector<std::string> refused{};
 };

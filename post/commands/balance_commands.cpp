@@ -113,6 +113,9 @@ void check(const CheckOptions& o) {
   if (!o.time_unit.empty()) unit = parse_time_unit(o.time_unit, "suffuse-post check");
   const ResultsReader results(o.results);
   const CheckReport report = check_run(results, check_settings(results, o.changes));
+  for (const std::string& sentence : report.unseen_peaks) {
+    std::cerr << "suffuse-post: warning: not looked at: " << sentence << '\n';
+  }
   const auto parts = safety_of(results);
   if (o.csv != "-") {
     const TextStyle style{unit.value_or(TimeUnit{}), shows_colors()};

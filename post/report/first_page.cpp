@@ -65,7 +65,8 @@ std::string accuracy_html(const ResultsReader& run) {
 
 std::string gaps_html(const RunNumbers& numbers) {
   if (!numbers.checks) return "";
-  std::vector<std::string> gaps = numbers.checks->not_looked_at;
+  std::vector<std::string> gaps = numbers.checks->unseen_peaks;
+  for (const std::string& sentence : numbers.checks->not_looked_at) gaps.push_back(sentence);
   for (const std::string& message : numbers.checks->refused)
     gaps.push_back("not possible: " + message);
   return html::list(gaps);

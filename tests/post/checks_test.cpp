@@ -103,6 +103,41 @@ TEST(Checks, SettingsChangeAfterTheRun) {
   EXPECT_THROW(check_settings(results, {"check.heave.stabilizing=1.0"}), InputError);
 }
 
+/// A flood with its peak of 4.4 m at 0.4 s, between the rows.
+std::string flood(double every) {
+  std::ostringstream text;
+  text << "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
+       << "geometry = { shape = \"column\", width = 0.4, height = 3.2 }\nmesh.size = 0.4\n"
+       << "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
+       << "initial.flow = \"steady\"\ntime.end = 1.0\noutput.every = " << every << "\n"
+       << soil("specimen", 1e-4)
+       << "[[boundary]]\non = \"bottom\"\nhead = [[0, 3.4], [0.4, 4.4], [0.5, 4.396], [1, 3.2]]\n"
+       << "concentration = 0.0\n[[boundary]]\non = \"top\"\nhead = 3.2\nconcentration = 0.0\n";
+  return text.str();
+}
+
+TEST(Checks, NameThePeakThatNoSnapshotHas) {
+  const ScratchFolder scratch;
+  const ResultsReader results = run_programs(scratch, "flood", flood(1.0));
+  const std::string sentence =
+      "the highest head at \"bottom\", 4.4 m at t = 0.4 s, is between snapshots, which have at "
+      "most "
+      "3.4 m; a smaller output.snapshot_every shows it";
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  EXPECT_EQ(report.unseen_peaks, std::vector{sentence});
+  EXPECT_NE(check_text(report).find("not looked at:\n  " + sentence + "\n"), std::string::npos);
+  write_report({results}, scratch / "report.html", {});
+  EXPECT_NE(testing::file_text(scratch / "report.html").find("is between snapshots, which have"),
+            std::string::npos);
+  const std::string said = scratch / "said";
+  testing::run_command(
+      "$PROGRAMS/suffuse-post check " + results.folder() + " --csv - > /dev/null 2> " + said, said);
+  EXPECT_EQ(testing::file_text(said), "suffuse-post: warning: not looked at: " + sentence + "\n");
+  // The snapshot at 0.5 s misses 0.004 m, less than 1 % of the range.
+  const ResultsReader close = run_programs(scratch, "close", flood(0.5));
+  EXPECT_TRUE(check_run(close, close.scene().scene.check).unseen_peaks.empty());
+}
+
 /// Water that sinks lifts nothing.
 TEST(Checks, SinkingWaterHasNoHeave) {
   const ScratchFolder scratch;
