@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iostream>
 
 #include "checks/column_checks.hpp"
 #include "checks/erosion_checks.hpp"
@@ -12,7 +10,6 @@
 #include "checks/section_checks.hpp"
 #include "checks/unseen_peaks.hpp"
 #include "common/errors.hpp"
-#include "common/pending_file.hpp"
 #include "files/number_text.hpp"
 #include "files/table_files.hpp"
 #include "tables/table_output.hpp"
@@ -246,18 +243,7 @@ std::string check_table(const CheckReport& report, int dimension,
 
 void write_checks(const std::string& path, const CheckReport& report, int dimension,
                   const std::optional<TimeUnit>& unit) {
-  const std::string text = check_table(report, dimension, unit);
-  if (path == "-") {
-    std::cout << text;
-    return;
-  }
-  PendingFile file(path);
-  {
-    std::ofstream out(file.temporary_path(), std::ios::binary);
-    out << text << std::flush;
-    if (!out) throw FileError(path + ": cannot be written");
-  }
-  file.commit();
+  write_text(path, check_table(report, dimension, unit));
 }
 
 void require_all_checks(const CheckReport& report) {

@@ -14,7 +14,9 @@ struct RunTableOptions {
 
 void declare_table(CLI::App& command, RunTableOptions& o) {
   add_results(command, o.results);
-  command.add_option("--csv", o.csv, "table to write")->required()->type_name("FILE");
+  command.add_option("--csv", o.csv, "table to write; - is standard output")
+      ->required()
+      ->type_name("FILE");
 }
 
 void table(const RunTableOptions& o) {

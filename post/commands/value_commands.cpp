@@ -72,7 +72,8 @@ void declare_error(CLI::App& command, ErrorOptions& o) {
                   "known values: columns t, x and y (and z) or neither, and a column per quantity")
       ->required()
       ->type_name("FILE.csv");
-  command.add_option("--csv", o.csv, "write the errors here")->type_name("FILE");
+  command.add_option("--csv", o.csv, "write the errors here; - is standard output")
+      ->type_name("FILE");
 }
 
 void error(const ErrorOptions& o) {
@@ -80,7 +81,7 @@ void error(const ErrorOptions& o) {
   const ResultsReader results(o.results);
   if (!o.csv.empty()) refuse_inside(results, "--csv", o.csv);
   const auto errors = reference_errors(results, reference);
-  std::cout << error_text(errors);
+  if (o.csv != "-") std::cout << error_text(errors);
   if (!o.csv.empty()) write_errors(o.csv, errors);
 }
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
-#include "common/pending_file.hpp"
 #include "files/number_text.hpp"
+#include "files/table_files.hpp"
 #include "tables/table_output.hpp"
 #include "values/refusal.hpp"
 #include "values/sample.hpp"
@@ -283,18 +282,12 @@ std::string error_text(const std::vector<ReferenceError>& errors) {
 }
 
 void write_errors(const std::string& path, const std::vector<ReferenceError>& errors) {
-  PendingFile file(path);
-  {
-    std::ofstream out(file.temporary_path(), std::ios::binary);
-    out << "quantity,values,l1,l2,max\n";
-    for (const auto& e : errors) {
-      out << e.quantity << ',' << e.values << ',' << number_text(e.l1) << ',' << number_text(e.l2)
-          << ',' << number_text(e.max) << '\n';
-    }
-    out << std::flush;
-    if (!out) throw FileError(path + ": cannot be written");
+  std::string text = "quantity,values,l1,l2,max\n";
+  for (const auto& e : errors) {
+    text += e.quantity + ',' + std::to_string(e.values) + ',' + number_text(e.l1) + ',' +
+            number_text(e.l2) + ',' + number_text(e.max) + '\n';
   }
-  file.commit();
+  write_text(path, text);
 }
 
 }  // namespace suffuse

@@ -42,7 +42,8 @@ std::vector<ReferenceError> reference_errors(const ResultsReader& run,
 /// A line of text per quantity.
 std::string error_text(const std::vector<ReferenceError>& errors);
 
-/// Writes a CSV table with the columns quantity, values, l1, l2, max. Throws FileError.
+/// Writes a CSV table with the columns quantity, values, l1, l2, max; `-` is standard output.
+/// Throws FileError.
 void write_errors(const std::string& path, const std::vector<ReferenceError>& errors);
 
 }  // namespace suffuse

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
-#include "common/pending_file.hpp"
 #include "files/layout.hpp"
 #include "files/number_text.hpp"
+#include "files/table_files.hpp"
 #include "values/column_fines.hpp"
 #include "values/run_names.hpp"
 #include "values/scene_words.hpp"
@@ -213,14 +213,7 @@ std::string run_table(const std::vector<ResultsReader>& runs) {
 }
 
 void write_run_table(const std::string& path, const std::vector<ResultsReader>& runs) {
-  const std::string text = run_table(runs);
-  PendingFile file(path);
-  {
-    std::ofstream out(file.temporary_path(), std::ios::binary);
-    out << text << std::flush;
-    if (!out) throw FileError(path + ": cannot be written");
-  }
-  file.commit();
+  write_text(path, run_table(runs));
 }
 
 }  // namespace suffuse

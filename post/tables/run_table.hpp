@@ -17,7 +17,7 @@ const std::vector<std::string>& run_table_columns();
 /// Throws FileError.
 std::string run_table(const std::vector<ResultsReader>& runs);
 
-/// Writes the table of `runs`. Throws FileError.
+/// Writes the table of `runs`; `-` is standard output. Throws FileError.
 void write_run_table(const std::string& path, const std::vector<ResultsReader>& runs);
 
 }  // namespace suffuse

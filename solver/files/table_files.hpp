@@ -37,4 +37,7 @@ std::string csv_cell(std::string text);
 /// The cells of a line, which may end in a carriage return.
 std::vector<std::string> csv_cells(std::string line);
 
+/// Writes a whole file or none; `-` is standard output. Throws FileError.
+void write_text(const std::string& path, const std::string& text);
+
 }  // namespace suffuse

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
 #include "common/errors.hpp"
 #include "common/hdf5_io.hpp"
-#include "common/pending_file.hpp"
 #include "common/regular_file.hpp"
 #include "files/folder_lock.hpp"
 #include "files/layout.hpp"
@@ -153,20 +151,6 @@ std::vector<std::string> headings(const Table& table) {
   return result;
 }
 
-void write_whole(const std::string& path, const std::string& text) {
-  if (path == "-") {
-    std::cout << text << std::flush;
-    return;
-  }
-  PendingFile file(path);
-  {
-    std::ofstream out(file.temporary_path(), std::ios::binary);
-    out << text << std::flush;
-    if (!out) throw FileError(path + ": cannot be written; is the disk full?");
-  }
-  file.commit();
-}
-
 constexpr const char* points_dataset = "/VTKHDF/Points";
 
 /// Number of rows of a table with this number of columns.
@@ -266,7 +250,7 @@ void write_table(const std::string& path, const Table& table) {
   std::string text = joined(headings(table), "") + "\n";
   for (std::size_t row = 0; row < table.rows(); ++row)
     text += joined(cells_of(table, row), "") + "\n";
-  write_whole(path, text);
+  write_text(path, text);
 }
 
 void write_tables(const std::string& path, const std::string& by,
@@ -282,7 +266,7 @@ void write_tables(const std::string& path, const std::string& by,
       if (row < table.rows()) text += joined(cells_of(table, row), csv_cell(name)) + "\n";
     }
   }
-  write_whole(path, text);
+  write_text(path, text);
 }
 
 ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {

@@ -457,5 +457,16 @@ TEST_F(PostCommand, MisspeltCommandsAndOptions) {
   EXPECT_EQ(post("--help").code, 0);
 }
 
+TEST_F(PostCommand, TablesOfRunsAndErrorsGoToStandardOutput) {
+  std::ofstream(scratch / "known.csv") << "t,x,y,porosity\n10,0.5,0.5,0.4\n";
+  fs::remove("-");
+  const Outcome table = post("table " + run + " --csv -");
+  EXPECT_EQ(table.out.find("run,status,"), 0U) << table.out << table.error;
+  const Outcome error = post("error " + run + " --reference " + scratch / "known.csv" + " --csv -");
+  EXPECT_EQ(error.out.find("quantity,values,l1,l2,max\nporosity,1,"), 0U)
+      << error.out << error.error;
+  EXPECT_FALSE(fs::exists("-"));
+}
+
 }  // namespace command_line_test
 }  // namespace suffuse
