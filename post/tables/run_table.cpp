@@ -205,8 +205,9 @@ std::string run_table(const std::vector<ResultsReader>& runs) {
     text += "\n";
   };
   add_line([](const std::string& column) { return column; });
-  for (const auto& run : runs) {
-    Row row = row_of(run, folder_name(run));
+  const std::vector<std::string> names = folder_names(runs);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    Row row = row_of(runs[r], names[r]);
     add_line([&](const std::string& column) { return row[column]; });
   }
   return text;

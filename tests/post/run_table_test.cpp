@@ -148,5 +148,22 @@ TEST(RunTable, HasNoExactValuesThatTheSceneDoesNotDetermine) {
   }
 }
 
+TEST(RunTable, FoldersOfOneNameAreToldApartByTheirPaths) {
+  const ScratchFolder scratch;
+  std::vector<ResultsReader> runs;
+  for (const std::string folder : {"s1/x/a", "s2/x/a", "s2/b"}) {
+    std::filesystem::create_directories(scratch / folder);
+    testing::write_synthetic_results(scratch / folder + ".results");
+    runs.emplace_back(scratch / folder + ".results/");
+  }
+  const std::vector<std::string> names{"s1/x/a", "s2/x/a", "b"};
+  EXPECT_EQ(folder_names(runs), names);
+  EXPECT_EQ(run_labels(runs), names);
+  const auto rows = parsed(run_table(runs));
+  for (std::size_t r = 0; r < rows.size(); ++r) EXPECT_EQ(rows[r].at("run"), names[r]);
+  // A run that is given twice keeps its name.
+  EXPECT_EQ(folder_names({runs[0], runs[0]}), (std::vector<std::string>{"a", "a"}));
+}
+
 }  // namespace run_table_test
 }  // namespace suffuse

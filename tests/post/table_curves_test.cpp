@@ -45,6 +45,21 @@ class TableCurves : public ::testing::Test {
   ScratchFolder scratch_;
 };
 
+TEST_F(TableCurves, RunsInFoldersOfOneNameDiffer) {
+  std::filesystem::create_directories(scratch_ / "c");
+  write_synthetic_results(scratch_ / "c/a.results", "a", 2e-3);
+  FigureOptions options;
+  options.columns = {"porosity_mean"};
+  const auto chart =
+      make_figure("curves", {run()[0], ResultsReader(scratch_ / "c/a.results")}, options);
+  const Curve& first = chart[0].curves[0];
+  const Curve& second = chart[0].curves[1];
+  EXPECT_EQ(second.label, "c/a");
+  EXPECT_TRUE(first.label.ends_with("/a") && first.label != second.label) << first.label;
+  EXPECT_NE(first.color, second.color);
+  EXPECT_NE(first.dash, second.dash);
+}
+
 TEST_F(TableCurves, AnyColumnOfAnyTable) {
   FigureOptions options;
   options.columns = {"porosity_mean", "ledger.eroded", "boundaries.discharge"};
