@@ -68,6 +68,15 @@ double computed_exhaustion(const std::vector<Masses>& masses) {
   return none == masses.end() ? std::numeric_limits<double>::infinity() : none->t;
 }
 
+/// When the erodible mass is used up by the exact solution, s; infinity where a residual stays.
+double exact_completion(const Specimen& soil) {
+  const bool keeps = std::ranges::any_of(soil.portions, [](const Portion& p) {
+    const ErosionModel model = p.soil.erosion_model();
+    return model.residual.at(unset) > 0.0 && p.initial_porosity < model.porosity_max;
+  });
+  return keeps ? std::numeric_limits<double>::infinity() : exact_exhaustion(soil);
+}
+
 /// Adds the largest distances from the exact curves, in % of the mass that can erode.
 void add_errors(Row& row, const ResultsReader& run, const Specimen& soil,
                 const std::vector<Masses>& masses) {
@@ -140,7 +149,7 @@ Row row_of(const ResultsReader& run, const std::string& label) {
   Row row{{"run", label}, {"status", run.status()}};
   add_run_info(row, run);
   add_settings(row, run, soil);
-  if (has_exact_porosity(soil)) row["complete_exact"] = number_text(exact_exhaustion(soil));
+  if (has_exact_porosity(soil)) row["complete_exact"] = number_text(exact_completion(soil));
   row["complete_computed"] = number_text(computed_exhaustion(masses));
   if (has_exact_porosity(soil)) add_errors(row, run, soil, masses);
   add_fines_error(row, run, masses);

@@ -148,6 +148,14 @@ TEST(RunTable, HasNoExactValuesThatTheSceneDoesNotDetermine) {
   }
 }
 
+// No solution uses up fines that the law leaves.
+TEST(RunTable, AResidualIsNeverUsedUp) {
+  EXPECT_NEAR(std::stod(changed_row({})["complete_exact"]), 102.0, 1e-9);
+  auto row = changed_row({"soil.specimen.erosion.residual=0.02"});
+  EXPECT_EQ(row["complete_exact"], "inf");
+  EXPECT_EQ(row["complete_computed"], "inf");
+}
+
 TEST(RunTable, FoldersOfOneNameAreToldApartByTheirPaths) {
   const ScratchFolder scratch;
   std::vector<ResultsReader> runs;
