@@ -215,7 +215,7 @@ int run(int argc, char** argv) {
       ->type_name("FILE.h5");
   app.add_option("--geometry-timeout", arguments.geometry_timeout,
                  "processor time after which Gmsh is stopped over geometry.file")
-      ->check(CLI::Range(1e-3, 1e9))
+      ->check(number_in(1e-3, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS");
   app.add_flag("--check", arguments.check,

@@ -181,7 +181,7 @@ void add_strength_reduction(CLI::App& app, Arguments& arguments) {
       ->needs(mode);
   app.add_option("--deeper", arguments.strength.failing.depth,
                  "Leave out bodies that fail within this distance of the surface of the soil, m")
-      ->check(CLI::Range(1e-6, 1e6))
+      ->check(suffuse::number_in(1e-6, 1e6))
       ->type_name("DEPTH")
       ->needs(mode);
   app.add_flag_callback(
@@ -308,7 +308,7 @@ int run(int argc, char** argv, std::shared_ptr<const Ranks> ranks) {
       ->excludes(resume);
   app.add_option("--checkpoint-every", arguments.run.checkpoint_every,
                  "Seconds without a snapshot after which the run keeps a checkpoint (0: never)")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(suffuse::number_in(0.0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS");
   app.add_flag("--quiet", arguments.run.quiet, "No progress, warnings only");

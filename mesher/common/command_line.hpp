@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -59,6 +60,17 @@ inline bool same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return fs::equivalent(a, b, ignored) ||
          fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+}
+
+/// Checks that the value of an option is a number in [low, high]; CLI11's Range lets nan pass.
+inline CLI::Validator number_in(double low, double high) {
+  const CLI::Range range(low, high);
+  return {[range](std::string& text) {
+            double value = 0.0;
+            const bool is_number = CLI::detail::lexical_cast(text, value) && !std::isnan(value);
+            return is_number ? range(text) : "Value " + text + " is not a number";
+          },
+          range.get_description()};
 }
 
 /// Reads the arguments. Returns an exit code if the program is done, after --help or --version.

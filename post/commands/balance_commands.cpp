@@ -95,7 +95,7 @@ void declare_check(CLI::App& command, CheckOptions& o) {
   command
       .add_option("--least", o.least,
                   "fail with exit code 3 where a safety i_cr / i against heave is below this")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_in(0.0, 1e9));
   command
       .add_option("--set", o.changes, "change a key of the table [check] of the scene, repeatable")
       ->type_name("check.KEY=VALUE");

@@ -345,6 +345,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"column.toml --sizes a.h5 -o ./a.h5", 2, "-o ./a.h5 would overwrite an input"},
         Wrong{"--check", 2, "a scene file is missing; expected suffuse-mesher SCENE.toml"},
         Wrong{"column.toml --geometry-timeout 0", 2, "--geometry-timeout: Value 0 not in range"},
+        Wrong{"column.toml --geometry-timeout nan", 2, "--geometry-timeout: Value nan is not"},
         Wrong{"column.toml --geometry-timout 9", 2, "did you mean --geometry-timeout?"},
         Wrong{"column.toml --chek", 2, "did you mean --check?"},
         Wrong{"column.toml --check --set soil.specimen.gradation=[[1,100]]", 2,

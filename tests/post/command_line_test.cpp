@@ -468,5 +468,12 @@ TEST_F(PostCommand, TablesOfRunsAndErrorsGoToStandardOutput) {
   EXPECT_FALSE(fs::exists("-"));
 }
 
+TEST_F(PostCommand, NoNumberIsNoLimit) {
+  expect_refusal("check " + run + " --least nan", 2,
+                 "suffuse-post: error: --least: Value nan is not a number (see --help)");
+  EXPECT_NE(post("check " + run + " --least -1").error.find("Value -1 not in range"),
+            std::string::npos);
+}
+
 }  // namespace command_line_test
 }  // namespace suffuse
