@@ -107,6 +107,7 @@ std::string csv_cell(std::string text) {
 }
 
 std::vector<std::string> csv_cells(std::string line) {
+  if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
   if (line.ends_with('\r')) line.pop_back();
   std::vector<std::string> cells(1);
   bool quoted = false;

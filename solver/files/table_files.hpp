@@ -34,7 +34,7 @@ std::string table_line(const SectionRow& row);
 
 /// A text as a cell of a CSV file: on one line, quoted if necessary.
 std::string csv_cell(std::string text);
-/// The cells of a line, which may end in a carriage return.
+/// The cells of a line, which may begin with a byte order mark and end in a carriage return.
 std::vector<std::string> csv_cells(std::string line);
 
 /// Writes a whole file or none; `-` is standard output. Throws FileError.

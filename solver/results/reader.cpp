@@ -108,6 +108,14 @@ Series read_series(const std::string& folder, const std::string& kind) {
   return series;
 }
 
+void refuse_repeated(const std::vector<std::string>& names, const std::string& path) {
+  for (const std::string& name : names) {
+    if (std::ranges::count(names, name) == 1) continue;
+    throw InputError(
+        InputProblem{path + ":1", "", "several columns \"" + name + '"', "each column once"});
+  }
+}
+
 void append_row(Table& table, const std::vector<std::string>& cells, const std::string& where) {
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const auto value = parse_number(cells[k]);
@@ -210,6 +218,7 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
   std::vector<std::string> names = csv_cells(line);
   std::vector<std::string> units(names.size());
   std::ranges::transform(names, units.begin(), cut_unit);
+  refuse_repeated(names, path);
   const auto key = std::ranges::find(names, by) - names.begin();
   if (!by.empty() && key == std::ssize(names)) {
     throw FileError(path + ":1: got no column " + by);
@@ -226,6 +235,7 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
   for (int number = 2; std::getline(in, line); ++number) {
     // A row without an end of line is still being written: leave it out.
     if (in.eof()) break;
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     auto cells = csv_cells(line);
     const std::string where = path + ":" + std::to_string(number) + ": ";
     if (cells.size() != names.size()) {

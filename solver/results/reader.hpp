@@ -28,7 +28,8 @@ struct Table {
 };
 
 /// Reads a CSV file of numbers with one line of names; `t [s]` is the
-/// column t of unit s. Throws FileError with file and line.
+/// column t of unit s. Blank lines are left out. Throws FileError with file and line, InputError
+/// for a column that is there twice.
 Table read_table(const std::string& path);
 
 /// The rows of a table with the same text in one column.

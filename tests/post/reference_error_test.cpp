@@ -138,5 +138,24 @@ TEST(ReferenceErrorText, ReadsBack) {
   EXPECT_EQ(error_text(errors), "porosity: L1 0.125, L2 0.25, largest 0.5 of 3 values\n");
 }
 
+// Spreadsheets write a byte order mark, and editors leave blank lines.
+TEST_F(ReferenceErrors, MarksAndBlankLinesAreLeftOut) {
+  const auto errors = of("\xEF\xBB\xBFt,x,y,porosity\r\n\r\n" + row(10, 0.5, 0.5, 0.4) + " \t\n\n");
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_EQ(errors.front().values, 1U);
+}
+
+TEST_F(ReferenceErrors, AColumnIsThereOnce) {
+  try {
+    static_cast<void>(of("t,x,y,porosity,porosity [-]\n10,0.5,0.5,0.4,0.3\n"));
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(
+        std::string(error.what())
+            .ends_with("known.csv:1: got several columns \"porosity\"; expected each column once"))
+        << error.what();
+  }
+}
+
 }  // namespace reference_error_test
 }  // namespace suffuse

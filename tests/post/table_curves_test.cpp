@@ -165,6 +165,18 @@ TEST_F(TableCurves, TimeIsInTheUnitThatFitsUnlessARangeIsGivenInSeconds) {
   EXPECT_EQ(chart.curves[0].x[1], 22000.0);
 }
 
+TEST_F(TableCurves, MeasuredTablesMayHaveAMarkAndBlankLines) {
+  FigureOptions options;
+  options.columns = {"porosity_mean"};
+  options.measured = scratch_ / "measured.csv";
+  std::ofstream(options.measured) << "\xEF\xBB\xBFrun,t,porosity_mean\n\nb,10,0.3\n\n";
+  const auto chart = make_figure("curves", runs(), options).front();
+  EXPECT_EQ(chart.curves.back().label, "b, measured");
+  EXPECT_EQ(chart.curves.back().y, std::vector{0.3});
+  std::ofstream(options.measured) << "t,porosity_mean,t\n0,0.3,1\n";
+  EXPECT_NE(message(run(), options).find("several columns \"t\""), std::string::npos);
+}
+
 TEST_F(TableCurves, MeasuredPointsLieBesideThem) {
   const std::string path = scratch_ / "measured.csv";
   std::ofstream(path) << "t [min],porosity_mean\n1,0.36\n2,0.4\n";
