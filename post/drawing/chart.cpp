@@ -75,7 +75,12 @@ void add_line(vtkChartXY& chart, const Curve& curve) {
   plot->GetPen()->SetLineType(vtk_line_type(curve.dash));
 }
 
-void add_band(vtkChartXY& chart, const Curve& curve) {
+void add_band(vtkChartXY& chart, Curve curve) {
+  // VTK draws no area of two rows: the first is there twice.
+  if (curve.x.size() == 2) {
+    for (auto* column : {&curve.x, &curve.y, &curve.low})
+      column->insert(column->begin(), column->front());
+  }
   auto table = table_of(curve, false);
   vtkNew<vtkDoubleArray> low;
   low->SetName("low");

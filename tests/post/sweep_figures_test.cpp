@@ -68,6 +68,24 @@ TEST(SweepFigures, RunsThatShareAKeyAreOneGroup) {
   EXPECT_FALSE(chart.logarithmic_x);
 }
 
+TEST(SweepFigures, TheBandOfTwoGroupsIsDrawn) {
+  const ScratchFolder scratch;
+  const auto inked = [&](bool has_band) {
+    Chart chart{"", "x", "y", {}};
+    chart.extra_x = chart.extra_y = {0.0, 3.0};
+    Curve band;
+    band.x = {1.0, 2.0};
+    band.y = {2.0, 2.0};
+    band.low = {1.0, 1.0};
+    band.color = {0.0, 0.5, 0.0};
+    if (has_band) chart.curves.push_back(band);
+    draw_charts({chart}, scratch / "chart.png");
+    return Pixels(scratch / "chart.png").inked();
+  };
+  // A third of the width and of the height of the axes.
+  EXPECT_GT(inked(true) - inked(false), 40000);
+}
+
 TEST(SweepFigures, SampledKeysAreGroupedByTen) {
   const ScratchFolder scratch;
   // x descends, so that groups follow x and not the rows.
