@@ -56,11 +56,20 @@ void leave_out_extremes(FieldScale& scale, const std::vector<WeightedValue>& val
   if (scale.exceeds_high) scale.notes.push_back("largest " + digits_text(largest, 4));
 }
 
-/// The label of an end of the range: four digits; zero if the value is round-off.
+/// Digits that tell places on a bar apart; at least `least`.
+int digits_of(const FieldScale& scale, int least) {
+  const double range = scale.range[1] - scale.range[0];
+  if (scale.uniform || scale.logarithmic || !(range > 0.0)) return least;
+  const double size = std::max(std::abs(scale.range[0]), std::abs(scale.range[1]));
+  return std::max(least, 3 + static_cast<int>(std::ceil(std::log10(size / range))));
+}
+
+/// The label of an end of the range: four digits or what tells it from ticks; zero if the value is
+/// round-off.
 std::string end_text(double value, const FieldScale& scale) {
   const double range = scale.range[1] - scale.range[0];
   if (!scale.logarithmic && std::abs(value) < agreement * range) value = 0.0;
-  return digits_text(value, 4);
+  return digits_text(value, digits_of(scale, 4));
 }
 
 }  // namespace
@@ -89,7 +98,7 @@ std::vector<double> FieldScale::levels() const {
 }
 
 std::string FieldScale::level_text(double level) const {
-  return logarithmic ? logarithmic_tick_text(level) : tick_text(level);
+  return logarithmic ? logarithmic_tick_text(level) : digits_text(level, digits_of(*this, 6));
 }
 
 FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& request) {

@@ -101,5 +101,20 @@ TEST(Ticks, AreWrittenAsByHand) {
   EXPECT_EQ(tick_text(518400.0), "518400");
 }
 
+// The ends have the digits that tell them from the ticks between them.
+TEST(FieldScale, LabelsOfNearlyConstantValuesDiffer) {
+  for (const double spread : {1e-2, 4e-6, 4e-8}) {
+    const double low = 4.01088e-14;
+    const double high = low * (1.0 + spread);
+    const FieldScale scale = value_scale({{low, 1.0}, {high, 1.0}}, {});
+    const std::vector<BarMark> marks = bar_of(scale, "").marks;
+    ASSERT_GE(marks.size(), 5U);
+    for (const BarMark& mark : marks) {
+      const double place = low + mark.share * (high - low);
+      EXPECT_NEAR(std::stod(mark.text), place, 0.01 * (high - low)) << mark.text;
+    }
+  }
+}
+
 }  // namespace field_scale_test
 }  // namespace suffuse
