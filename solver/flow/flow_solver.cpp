@@ -13,24 +13,6 @@
 #include "physics/liquid.hpp"
 
 namespace suffuse {
-namespace {
-
-/// The element whose soil resists the flow in an element that soil fills in part: itself or, in
-/// free water that has a share of the smoothed soil, a neighbour. So none of the resistance is
-/// lost.
-template <int Dim>
-int soil_beside(const Grid<Dim>& grid, const SoilMap<Dim>& soils, int element) {
-  // Air conducts as air.
-  if (soils.is_soil(element) || soils.free_space().drains()) return element;
-  for (const int i : grid.mesh.elements[element]) {
-    for (int k = grid.node_element_begin[i]; k < grid.node_element_begin[i + 1]; ++k) {
-      if (soils.is_soil(grid.node_element[k])) return grid.node_element[k];
-    }
-  }
-  return element;
-}
-
-}  // namespace
 
 template <int Dim>
 FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Skeleton<Dim>& solid,
@@ -135,13 +117,12 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
     const double weighs = !has_air ? 1.0 : soils_.is_soil(e) ? skeleton_.filling()[e].share : 0.0;
     result.mixture_density[e] =
         mixture_density(weighs * concentration, water_density, grain_density_);
-    const ResistingSoil soil = resisting_soil(e, porosity);
-    const ExchangeModel& law = soils_.exchange_of_element(soil.element);
+    const SurfaceSoil soil = surface_soil(e, porosity);
     result.drag[e] =
         darcy_drag(porosity, water_density,
                    soils_.conductivity_factor(e) * soil.easier *
-                       conductivity_at(law.conductivity, law.viscosity,
-                                       start_porosity(soil.element), soil.porosity, concentration));
+                       conductivity_at(model.conductivity, model.viscosity, start_porosity(e),
+                                       soil.porosity, concentration));
     if (!grain_size_.empty()) {
       result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
     }
@@ -169,17 +150,18 @@ double FlowSolver<Dim>::start_porosity(int element) const {
 }
 
 template <int Dim>
-typename FlowSolver<Dim>::ResistingSoil FlowSolver<Dim>::resisting_soil(int element,
-                                                                        double porosity) const {
+typename FlowSolver<Dim>::SurfaceSoil FlowSolver<Dim>::surface_soil(int element,
+                                                                    double porosity) const {
   /// An element of water conducts like soil of this share of the element's thickness.
   constexpr double thinnest = 1e-3;
   const std::vector<SoilFilling>& filling = skeleton_.filling();
-  if (filling.empty()) return {element, porosity, 1.0};
+  if (filling.empty()) return {porosity, 1.0};
   const SoilFilling& part = filling[element];
+  if (part.share == 1.0) return {porosity + part.excess, 1.0};
   if (part.share == 0.0) {
-    return {element, initial_porosity_[element], soils_.is_soil(element) ? 1.0 / thinnest : 1.0};
+    return {initial_porosity_[element], soils_.is_soil(element) ? 1.0 / thinnest : 1.0};
   }
-  return {soil_beside(grid_, soils_, element), part.porosity, 1.0 / std::max(part.share, thinnest)};
+  return {part.porosity, 1.0 / std::max(part.share, thinnest)};
 }
 
 template <int Dim>

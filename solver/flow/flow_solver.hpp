@@ -206,15 +206,15 @@ class FlowSolver {
   const SoilMap<Dim>& soils_;
   const Skeleton<Dim>& skeleton_;
   int threads_;
-  /// The soil that resists the flow in an element.
-  struct ResistingSoil {
-    int element;  ///< that holds it
+  /// Porosity that resists the flow in an element partly filled with soil, and its conductivity
+  /// over that of an element full of this soil.
+  struct SurfaceSoil {
     double porosity;
-    double easier;  ///< conductivity over that of an element full of this soil
+    double easier;
   };
   /// n_0 of the soil that an element holds now.
   [[nodiscard]] double start_porosity(int element) const;
-  [[nodiscard]] ResistingSoil resisting_soil(int element, double porosity) const;
+  [[nodiscard]] SurfaceSoil surface_soil(int element, double porosity) const;
 
   std::vector<double> breakpoints_;
   std::vector<double> kinks_;

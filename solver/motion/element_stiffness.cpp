@@ -71,13 +71,15 @@ std::vector<double> diffusivity(const Grid<Dim>& grid, const SoilMap<Dim>& soils
 
 template <int Dim>
 std::vector<SoilFilling> soil_filling(const Grid<Dim>& grid, const ElementClasses& classes,
-                                      const SoilVolumes& own, const SoilVolumes& smoothed) {
+                                      const SoilVolumes& own, const SoilVolumes& smoothed,
+                                      const std::vector<double>& element_porosity) {
   std::vector<SoilFilling> result(classes.full.size());
   for (std::size_t e = 0; e < result.size(); ++e) {
     const double share = std::min(1.0, smoothed.soil[e] / grid.volume[e]);
     const double full = classes.full[e];
     result[e] = {std::lerp(share, 1.0, full),
-                 std::lerp(smoothed.porosity(e), own.porosity(e), full)};
+                 std::lerp(smoothed.porosity(e), own.porosity(e), full), 0.0};
+    if (full > 0.0) result[e].excess = own.porosity(e) - element_porosity[e];
   }
   return result;
 }
@@ -95,8 +97,10 @@ template std::vector<double> diffusivity(const Grid<3>&, const SoilMap<3>&, cons
                                          std::vector<double>, const std::vector<double>&,
                                          const std::vector<double>&);
 template std::vector<SoilFilling> soil_filling(const Grid<2>&, const ElementClasses&,
-                                               const SoilVolumes&, const SoilVolumes&);
+                                               const SoilVolumes&, const SoilVolumes&,
+                                               const std::vector<double>&);
 template std::vector<SoilFilling> soil_filling(const Grid<3>&, const ElementClasses&,
-                                               const SoilVolumes&, const SoilVolumes&);
+                                               const SoilVolumes&, const SoilVolumes&,
+                                               const std::vector<double>&);
 
 }  // namespace suffuse

@@ -122,8 +122,9 @@ void MovingSkeleton<Dim>::find_filling() {
   };
   // At the surface smoothed by nodes, as the drag would otherwise jump when points leave an
   // element.
-  filling_ = soil_filling<Dim>(this->grid_, classes, SoilVolumes{sums(points_.volume), sums(solid)},
-                               SoilVolumes{smooth(points_.volume), smooth(solid)});
+  filling_ =
+      soil_filling<Dim>(this->grid_, classes, SoilVolumes{sums(points_.volume), sums(solid)},
+                        SoilVolumes{smooth(points_.volume), smooth(solid)}, element_porosity());
 }
 
 // ---------------------------------------------------------------------------------------- results

@@ -42,10 +42,11 @@ class EquilibriumLost : public NumericalError {
 
 /// The part of an element that soil which moves fills.
 struct SoilFilling {
-  void archive(auto& archive) { archive(share, porosity); }
+  void archive(auto& archive) { archive(share, porosity, excess); }
 
   double share = 1.0;     ///< of the element; 0: free water
-  double porosity = 0.0;  ///< n_L of the soil there, by its points; not used if the share is 0
+  double porosity = 0.0;  ///< n_L of the soil there; not used if the share is 0 or 1
+  double excess = 0.0;    ///< n_L of the element's points less that of the element
 };
 
 template <int Dim>
@@ -114,8 +115,7 @@ class Skeleton {
   [[nodiscard]] virtual bool has_inertia() const { return false; }
   /// Times of kinks in the loads on the solid, s.
   [[nodiscard]] virtual std::vector<double> load_breakpoints() const { return {}; }
-  /// Solid that points have carried into each region of the mesh since the start, minus that
-  /// carried out, m3. Empty if the solid does not move.
+  /// Solid that points carried into each region, less what they carried out, m3; empty at rest.
   [[nodiscard]] virtual std::vector<double> region_gain() const { return {}; }
   /// Per element; empty if soil fills all elements that it filled at the start.
   [[nodiscard]] virtual const std::vector<SoilFilling>& filling() const {

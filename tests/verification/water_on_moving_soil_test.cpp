@@ -88,29 +88,6 @@ TEST(WaterOnMovingSoil, IncompressibleWaterStartsAtRest) {
               0.01 * 0.5 * rise / modulus);
 }
 
-/// Water rises through 1 m of stiff soil into free water: all of the soil resists it, though its
-/// surface is smoothed over the elements next to it.
-TEST(WaterOnMovingSoil, NoneOfTheResistanceIsLostAtItsSurface) {
-  constexpr double rise = 1.0;
-  constexpr double exact = conductivity * rise / (1000.0 * 9.81);  // m3/s per m2
-  for (const int rows : {7, 14, 28}) {
-    Scene scene = elastic_column();
-    BoundaryCondition bottom = model::clean_pressure_on("bottom", rise);
-    bottom.fix = Fixing::both;
-    scene.boundaries = {model::clean_pressure_on("top", 0.0), bottom};
-    hold(scene);
-    const double width = 2.0 * 1.4 / rows;
-    model::ModelRun run(
-        model::make_case(model::under_water(model::crossed_mesh(2, rows, width, 1.4),
-                                            [](const Vector<2>& x) { return x[1] < 1.0; }),
-                         scene));
-    const auto end = run.run({3.0 * second}).states.back();
-    const double share = end.history.flux_out / (width * exact);
-    std::cout << rows << " rows: discharge " << share << " of the exact one\n";
-    EXPECT_NEAR(share, 1.0, 1e-4) << rows;
-  }
-}
-
 /// Water of one pressure everywhere moves no soil, at the edge of a pit at the border neither.
 TEST(WaterOnMovingSoil, OfOnePressureMovesNoEdgeOfAPit) {
   Scene scene = elastic_column();
