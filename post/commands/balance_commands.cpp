@@ -9,6 +9,7 @@
 #include "checks/checks.hpp"
 #include "checks/heave_safety.hpp"
 #include "commands/command.hpp"
+#include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
 #include "tables/boundary_text.hpp"
