@@ -1011,7 +1011,7 @@ TEST_F(UserFile, ALoadInSpaceHasThreeNumbers) {
               std::string::npos)
         << message(plane);
   }
-  EXPECT_EQ(message("[0.0, 0.0, -1e3]"), "");
+  EXPECT_EQ(message("[0.0, 0.0, -1e3]"), "nothing refused");
 }
 
 TEST_F(UserFile, OneEdgeTakesOneCondition) {
