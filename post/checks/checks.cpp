@@ -12,6 +12,7 @@
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
 #include "files/table_files.hpp"
+#include "files/text_output.hpp"
 #include "tables/table_output.hpp"
 
 namespace suffuse {
@@ -243,7 +244,7 @@ std::string check_table(const CheckReport& report, int dimension,
 
 void write_checks(const std::string& path, const CheckReport& report, int dimension,
                   const std::optional<TimeUnit>& unit) {
-  write_text(path, check_table(report, dimension, unit));
+  TextOutput(path).write(check_table(report, dimension, unit));
 }
 
 void require_all_checks(const CheckReport& report) {

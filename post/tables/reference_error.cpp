@@ -8,7 +8,7 @@
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
-#include "files/table_files.hpp"
+#include "files/text_output.hpp"
 #include "tables/table_output.hpp"
 #include "values/refusal.hpp"
 #include "values/sample.hpp"
@@ -287,7 +287,7 @@ void write_errors(const std::string& path, const std::vector<ReferenceError>& er
     text += e.quantity + ',' + std::to_string(e.values) + ',' + number_text(e.l1) + ',' +
             number_text(e.l2) + ',' + number_text(e.max) + '\n';
   }
-  write_text(path, text);
+  TextOutput(path).write(text);
 }
 
 }  // namespace suffuse

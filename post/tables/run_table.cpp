@@ -11,7 +11,7 @@
 #include "common/errors.hpp"
 #include "files/layout.hpp"
 #include "files/number_text.hpp"
-#include "files/table_files.hpp"
+#include "files/text_output.hpp"
 #include "values/column_fines.hpp"
 #include "values/run_names.hpp"
 #include "values/scene_words.hpp"
@@ -223,7 +223,7 @@ std::string run_table(const std::vector<ResultsReader>& runs) {
 }
 
 void write_run_table(const std::string& path, const std::vector<ResultsReader>& runs) {
-  write_text(path, run_table(runs));
+  TextOutput(path).write(run_table(runs));
 }
 
 }  // namespace suffuse

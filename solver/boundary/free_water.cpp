@@ -8,7 +8,8 @@
 namespace suffuse {
 namespace {
 
-/// Where a pressure that varies linearly over a face has the mean that acts on its `a`-th node.
+/// A pressure that varies linearly over a face presses on its `a`-th node as much as a constant
+/// pressure does: the pressure at this place.
 template <int Dim>
 Vector<Dim> weighted_place(const Grid<Dim>& grid, const std::array<int, Dim>& face, std::size_t a) {
   Vector<Dim> sum = grid.mesh.nodes[face[a]];

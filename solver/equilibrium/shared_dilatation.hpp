@@ -33,7 +33,8 @@ class SharedDilatation {
   void average(std::vector<double>& ratio) const;
   /// How much larger the total pressure of an element is than that of its patch, Pa: the weight of
   /// the soil of the patch times the way from the middle of the patch to that of the element. 0
-  /// where nothing is shared. \param weight  per element, N/m3
+  /// where nothing is shared.
+  /// \param weight  of the soil and its water, per element, N/m3
   [[nodiscard]] std::vector<double> variation(const Mesh<Dim>& mesh,
                                               const std::vector<Vector<Dim>>& weight) const;
   /// The derivative of the work of mean stresses by J: w_e / sum w times the sum of m/Jm in the

@@ -1,12 +1,8 @@
 #include "files/table_files.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iostream>
 #include <iterator>
 
-#include "common/errors.hpp"
-#include "common/pending_file.hpp"
 #include "files/layout.hpp"
 #include "files/number_text.hpp"
 
@@ -124,20 +120,6 @@ std::vector<std::string> csv_cells(std::string line) {
     }
   }
   return cells;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  if (path == "-") {
-    std::cout << text << std::flush;
-    return;
-  }
-  PendingFile file(path);
-  {
-    std::ofstream out(file.temporary_path(), std::ios::binary);
-    out << text << std::flush;
-    if (!out) throw FileError(path + ": cannot be written; is the disk full?");
-  }
-  file.commit();
 }
 
 }  // namespace suffuse

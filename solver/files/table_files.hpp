@@ -37,7 +37,4 @@ std::string csv_cell(std::string text);
 /// The cells of a line, which may begin with a byte order mark and end in a carriage return.
 std::vector<std::string> csv_cells(std::string line);
 
-/// Writes a whole file or none; `-` is standard output. Throws FileError.
-void write_text(const std::string& path, const std::string& text);
-
 }  // namespace suffuse

@@ -20,7 +20,7 @@ void TextOutput::write(const std::string& text) {
   std::ofstream file(file_->temporary_path(), std::ios::binary);
   file << text;
   file.close();
-  if (!file) throw FileError(path_ + ": cannot be written");
+  if (!file) throw FileError(path_ + ": cannot be written; is the disk full?");
   file_->commit();
 }
 

@@ -13,6 +13,7 @@
 #include "files/layout.hpp"
 #include "files/number_text.hpp"
 #include "files/table_files.hpp"
+#include "files/text_output.hpp"
 #include "results/vtkhdf.hpp"
 #include "scene/table_file.hpp"
 
@@ -260,7 +261,7 @@ void write_table(const std::string& path, const Table& table) {
   std::string text = joined(headings(table), "") + "\n";
   for (std::size_t row = 0; row < table.rows(); ++row)
     text += joined(cells_of(table, row), "") + "\n";
-  write_text(path, text);
+  TextOutput(path).write(text);
 }
 
 void write_tables(const std::string& path, const std::string& by,
@@ -276,7 +277,7 @@ void write_tables(const std::string& path, const std::string& by,
       if (row < table.rows()) text += joined(cells_of(table, row), csv_cell(name)) + "\n";
     }
   }
-  write_text(path, text);
+  TextOutput(path).write(text);
 }
 
 ResultsReader::ResultsReader(const std::string& folder) : folder_(folder) {

@@ -376,8 +376,8 @@ TEST_F(FromMovedSoil, GoesOnFromItsStressAndItsPlace) {
               2e-2 * ledger.column("eroded").back());
 }
 
-/// A relative path is one from the folder of the scene, wherever the programs run: another folder
-/// of this name there is not taken.
+/// A relative path starts at the folder of the scene, wherever the programs run. A folder of the
+/// same name in the working folder is not used.
 TEST_F(FromEarlierOnce, TheFolderLiesBesideTheScene) {
   run_first(mode());
   const std::string at_home = place_.path("");
