@@ -41,6 +41,7 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
           step);
     };
     std::optional<Unsolved> why = find();
+    if (why) failure_.count_unsolved(step.flow.start);
     if (why && !flow_.is_shortest(step.flow) && !failure_.is_stuck()) {
       flow_.reject(step.flow);
     } else if (why) {

@@ -11,6 +11,10 @@ constexpr double short_step = 1e-2;
 /// soil that falls through the height of the model takes some 1e-2 of it in each.
 constexpr int stuck_steps = 500;
 constexpr double stuck_time = 1e-3;
+/// Steps in equilibrium get nowhere if so many trials have no solution within this share of the
+/// time since the start.
+constexpr int stuck_trials = 200;
+constexpr double stuck_share = 1e-2;
 
 /// Places of the points in the order of their numbers, m.
 template <int Dim>
@@ -29,8 +33,23 @@ void Failure<Dim>::start_inertia(double time) {
   repeated_.fails(places_by_id(solid_), mean_size(grid_.mesh));
   time_ = time;
   rested_ = counted_time_ = 0.0;
-  counted_steps_ = 0;
+  counted_steps_ = unsolved_ = 0;
   is_stuck_ = false;
+}
+
+template <int Dim>
+bool Failure<Dim>::is_stuck() const {
+  return has_inertia() ? is_stuck_ : unsolved_ >= stuck_trials;
+}
+
+template <int Dim>
+void Failure<Dim>::count_unsolved(double time) {
+  if (has_inertia()) return;
+  if (time > unsolved_since_ * (1.0 + stuck_share)) {
+    unsolved_since_ = time;
+    unsolved_ = 0;
+  }
+  ++unsolved_;
 }
 
 template <int Dim>
@@ -91,8 +110,14 @@ void Failure<Dim>::refuse(double time, const Unsolved& why) const {
             << (why.worst_node < 0 ? "" : ", least " + node_text(grid_, why.worst_node))
             << " (to follow it: time.failure = \"follow\")";
   } else {
-    message << why.text
-            << ", however short the step is: soil that yields is about to lose its equilibrium";
+    message << why.text;
+    if (is_stuck()) {
+      message << "; since t = " << unsolved_since_ << " s " << unsolved_
+              << " steps have been shortened for want of a solution";
+    } else {
+      message << ", however short the step is";
+    }
+    message << ": soil that yields is about to lose its equilibrium";
   }
   throw EquilibriumLost(message.str());
 }

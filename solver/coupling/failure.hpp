@@ -30,12 +30,19 @@ class Failure {
   /// Time of the last loss of equilibrium, s; 0: never, or at the start.
   [[nodiscard]] double time() const { return time_; }
 
+  /// Whether steps have become so short that the run gets nowhere: all those with inertia, or those
+  /// in equilibrium of which most trials have no solution.
+  [[nodiscard]] bool is_stuck() const;
+
   // From equilibrium to inertia, or to the end of the run.
 
   /// Starts inertia if the soil has no equilibrium. Throws NumericalError if it is not followed.
   void start(const StartStress& found);
-  /// Starts inertia, as the step from `time`, s, has no solution and cannot be shortened. Throws
-  /// EquilibriumLost if the soil has inertia already, or if the scene does not follow failure.
+  /// Call when a trial of a step from `time`, s, has no solution.
+  void count_unsolved(double time);
+  /// Starts inertia, as the step from `time`, s, has no solution and cannot be shortened, or the
+  /// run is stuck. Throws EquilibriumLost if the soil has inertia already, or if the scene does not
+  /// follow failure.
   void step_unsolved(double time, const Unsolved& why);
   /// Call after a step that ended at `time`, s; the next one has `next_step`, s. Soil in
   /// equilibrium gets inertia if steps become much shorter than the time of a fall, or if it moves
@@ -49,11 +56,10 @@ class Failure {
   /// Call at the end of a step with inertia, of `duration`, s. Ends the inertia of soil that has
   /// been at rest for the time of a fall through its height.
   void finish_motion(double duration, const SoilKinetics& soil);
-  /// Whether steps with inertia have become so short that the motion gets nowhere.
-  [[nodiscard]] bool is_stuck() const { return has_inertia() && is_stuck_; }
 
   void archive(auto& archive) {
-    archive(repeated_, time_, rested_, long_steps_, counted_steps_, counted_time_, is_stuck_);
+    archive(repeated_, time_, rested_, long_steps_, counted_steps_, counted_time_, is_stuck_,
+            unsolved_, unsolved_since_);
   }
 
  private:
@@ -71,7 +77,9 @@ class Failure {
   bool long_steps_ = false;    ///< a long step has followed the last sudden change
   int counted_steps_ = 0;      ///< steps with inertia since they were last counted ...
   double counted_time_ = 0.0;  ///< ... and their time, s
-  bool is_stuck_ = false;      ///< see `is_stuck`
+  bool is_stuck_ = false;      ///< those steps got nowhere
+  int unsolved_ = 0;           ///< trials in equilibrium that have had no solution ...
+  double unsolved_since_ = 0;  ///< ... since this time, s
 };
 
 }  // namespace suffuse

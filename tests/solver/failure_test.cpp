@@ -130,6 +130,29 @@ TEST(Failure, StepsThatStayShortGetNowhere) {
   EXPECT_FALSE(Soil(true).failure.is_stuck());
 }
 
+/// In equilibrium the run gets nowhere if 200 trials of steps have no solution within 1 % of the
+/// time since the start.
+TEST(Failure, TrialsWithoutASolutionGetNowhere) {
+  const auto try_steps = [](Soil& soil, double from, double to, int count) {
+    for (int k = 0; k < count; ++k) {
+      soil.failure.count_unsolved(from + (to - from) * k / (count - 1));
+    }
+    return soil.failure.is_stuck();
+  };
+  Soil followed(true);
+  EXPECT_FALSE(try_steps(followed, 100.0, 300.0, 1000));
+  EXPECT_FALSE(try_steps(followed, 400.0, 404.0, 199));
+  EXPECT_TRUE(try_steps(followed, 500.0, 505.0, 200));
+  followed.failure.step_unsolved(505.0, no_equilibrium);
+  EXPECT_TRUE(followed.failure.has_inertia());
+  EXPECT_FALSE(followed.failure.is_stuck());
+  Soil stopped(false);
+  EXPECT_TRUE(try_steps(stopped, 500.0, 505.0, 200));
+  EXPECT_EQ(end_of_run([&] { stopped.failure.step_unsolved(505.0, {"no agreement"}); }),
+            "t = 505 s: no agreement; since t = 500 s 200 steps have been shortened for want of a "
+            "solution: soil that yields is about to lose its equilibrium");
+}
+
 /// Soil without motion has come to rest after sqrt(2 H/g), the time of a fall through its height.
 TEST(Failure, SoilThatHasRestedForAFallHasNoInertiaAnyMore) {
   const double fall = std::sqrt(2.0 * 2.0 / g);
