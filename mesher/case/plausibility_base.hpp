@@ -75,4 +75,8 @@ std::vector<std::string> flow_warnings(const SceneDocument& document, const Mesh
 template <int Dim>
 std::vector<std::string> soil_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
 
+/// Warnings of keys that have no effect in this scene.
+template <int Dim>
+std::vector<std::string> idle_key_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
+
 }  // namespace suffuse

@@ -34,13 +34,13 @@ class GeometryChecks : private SceneCheckBase {
     for (const std::string name : {"width", "depth", "height"}) {
       const std::string key = joined("geometry", name);
       if (given(key)) {
-        report(key, "a " + name + " beside geometry.file", name + " with a built-in shape only",
+        report(key, "a " + name + " with geometry.file", name + " with a built-in shape only",
                {"geometry.file"});
       }
     }
     for (const std::string& key : keys_of("geometry.layers")) {
       if (!given(key)) continue;
-      report(key, "a layer beside geometry.file",
+      report(key, "a layer with geometry.file",
              "layers with a built-in shape only: a file has regions of its own", {"geometry.file"});
     }
     check_scale();
@@ -63,14 +63,14 @@ class GeometryChecks : private SceneCheckBase {
   void check_mesh_of_file() const {
     for (const std::string key : {"mesh.size", "mesh.structure", "mesh.error"}) {
       if (!given(key)) continue;
-      report(key, "a key beside a .msh file",
+      report(key, "a key with a .msh file",
              "no such key: the elements of the file are used as they are", {"geometry.file"});
     }
   }
 
   void check_shape() const {
     if (given("geometry.scale")) {
-      report("geometry.scale", "a scale beside geometry.shape", "no such key: lengths are in m",
+      report("geometry.scale", "a scale with geometry.shape", "no such key: lengths are in m",
              {"geometry.shape"});
     }
     const bool box = scene_.geometry.is_box();

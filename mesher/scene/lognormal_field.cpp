@@ -17,7 +17,7 @@ class Draws {
 
   /// Between 0 and 1, neither of them.
   double uniform() { return (static_cast<double>(engine_() >> 12U) + 0.5) * 0x1p-52; }
-  /// Of mean 0 and deviation 1 (Box and Muller).
+  /// A number of mean 0 and deviation 1 (Box and Muller).
   double normal() {
     const double size = std::sqrt(-2.0 * std::log(uniform()));
     return size * std::cos(2.0 * std::numbers::pi * uniform());

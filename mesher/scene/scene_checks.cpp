@@ -326,7 +326,7 @@ class Checks : private SceneCheckBase {
           {key});
     }
     if (given("time.tolerance") && given("time.step")) {
-      report("time.tolerance", "a tolerance beside time.step",
+      report("time.tolerance", "a tolerance with time.step",
              "one of the two: a step that is given is not chosen", {"time.step"});
     }
   }

@@ -208,7 +208,7 @@ std::vector<SceneKey> declare_keys() {
              "A built-in geometry. A column, in two dimensions, has the region `specimen`, whose "
              "lower left corner is the origin, and the boundaries `top`, `bottom`, `left` and "
              "`right`. A box is the same of tetrahedra: x goes from left to right, y from front to "
-             "back, z upwards, with the boundaries `front` and `back` besides.")
+             "back, z upwards, and has the boundaries `front` and `back` too.")
           .otherwise_as("required without `file`"),
       key("geometry.width", at(&Scene::geometry, &Geometry::width), "Width along x.")
           .in("m")
@@ -399,8 +399,8 @@ std::vector<SceneKey> declare_keys() {
       choice("soil.*.drag", in_soil(&Soil::drag),
              {{"darcy", SoilDrag::darcy}, {"ergun", SoilDrag::ergun}},
              "Resistance to the flow: Darcy's, or Ergun's, which also grows with the square of the "
-             "flux and has Darcy's `conductivity` at small fluxes. Not beside a retention law, nor "
-             "beside boundaries whose faces open, close or fall dry.")
+             "flux and has Darcy's `conductivity` at small fluxes. Not with a retention law, nor "
+             "with boundaries whose faces open, close or fall dry.")
           .otherwise("darcy"),
 
       choice("soil.*.erosion.law", in_erosion(&ErosionSettings::law), by_word(erosion_laws()),

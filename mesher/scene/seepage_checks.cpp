@@ -142,11 +142,11 @@ class SeepageChecks : private SceneCheckBase {
     const std::string retention = table_of(*unsaturated) + ".retention";
     for (const Soil& soil : scene_.soils) {
       if (soil.drag != SoilDrag::ergun) continue;
-      report(table_of(soil) + ".drag", "\"ergun\" beside " + retention,
+      report(table_of(soil) + ".drag", "\"ergun\" with " + retention,
              "\"darcy\": Ergun's law is for full pores", {retention});
     }
     if (scene_.time.inertia.value_or(false)) {
-      report("time.inertia", "true beside " + retention,
+      report("time.inertia", "true with " + retention,
              "false, or no such key: flow in soil that is not full is slow", {retention});
     }
   }
@@ -176,7 +176,7 @@ class SeepageChecks : private SceneCheckBase {
     if (given("initial.from")) {
       for (const std::string other : {"initial.flow", "initial.water_level", "initial.stress"}) {
         if (!given(other)) continue;
-        report(other, "a start beside that from an earlier run", "initial.from alone",
+        report(other, "a start in addition to that from an earlier run", "initial.from alone",
                {"initial.from"});
       }
       return;
@@ -219,7 +219,7 @@ class SeepageChecks : private SceneCheckBase {
     const std::string key = joined(entry, "dry");
     if (!given(key)) return;
     if (!given(joined(entry, "head")) && !given(joined(entry, "file"))) {
-      report(key, "a key of a head without one", "head or file beside it, or no such key");
+      report(key, "a key of a head without one", "head or file too, or no such key");
     } else if (!has_gravity(scene_.gravity) && !refused("gravity")) {
       report(key, "a part above the water level without gravity",
              "gravity, as in gravity = [0.0, -9.81], or no such key", {"gravity"});

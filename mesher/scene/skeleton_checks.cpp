@@ -115,7 +115,7 @@ class SkeletonChecks : private SceneCheckBase {
   /// Refuses inertia of the flow: it is relative to the soil and would start and stop with it.
   void check_inertia() const {
     if (!scene_.time.inertia.value_or(false)) return;
-    report("time.inertia", "true beside a skeleton that moves",
+    report("time.inertia", "true with a skeleton that moves",
            "false, or no such key: soil that fails has inertia, and the liquid with it");
   }
 };

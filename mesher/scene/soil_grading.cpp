@@ -53,7 +53,7 @@ void check_grading_of(const Soil& soil, const std::string& table, const SceneInq
   const bool uniform =
       std::ranges::all_of(soil.porosity_gradient, [](double x) { return x == 0.0; });
   if (!uniform) {
-    report("nothing beside porosity_gradient",
+    report("nothing, although porosity_gradient is given",
            ": it is one number for the soil, and (1 - n_0)(1 - F*) changes from place to place",
            table + ".porosity_gradient");
   }

@@ -183,10 +183,11 @@ void declare_figure(CLI::App& command, FigureCommandOptions& o) {
       .add_option("--x", o.figure.x, "of \"curves\": column along the x-axis, in the place of t")
       ->type_name("COLUMN");
   command
-      .add_option("--measured", o.figure.measured,
-                  "points beside the curves: of \"curves\" columns t [UNIT] and those drawn; of "
-                  "\"profile\" distance and the fields; of \"fines-lost\" hours, and fines_lost, "
-                  "conductance or both; a column run where there are several")
+      .add_option(
+          "--measured", o.figure.measured,
+          "points to draw with the curves: of \"curves\" columns t [UNIT] and those drawn; of "
+          "\"profile\" distance and the fields; of \"fines-lost\" hours, and fines_lost, "
+          "conductance or both; a column run where there are several")
       ->type_name("FILE.csv");
   declare_axes(command, o.figure.axes);
   command.add_option("-o,--output", o.output, "picture to write: .png, .svg or .pdf")

@@ -234,7 +234,7 @@ void check_reference(const ReferenceTable& reference) {
            "both \"x\" and \"y\", or neither");
   }
   if (table.has("z") && !table.has("x")) {
-    refuse(error_command, reference.path, "\"z\" alone", "\"x\" and \"y\" beside it");
+    refuse(error_command, reference.path, "\"z\" alone", "\"x\" and \"y\" too");
   }
   if (names.empty()) refuse(error_command, reference.path, "no column of values", "at least one");
   if (table.rows() == 0) refuse(error_command, reference.path, "no row", "at least one");

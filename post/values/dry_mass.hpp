@@ -18,7 +18,7 @@ struct DryMass {
   double time = 0.0;  ///< s
 };
 
-/// Of each soil of the run that exchanges fines and has mass. Throws FileError.
+/// Masses of each soil of the run that exchanges fines and has mass. Throws FileError.
 std::vector<DryMass> dry_masses(const ResultsReader& results);
 
 /// Dry mass at the start of all of them, kg (per metre of thickness in 2D). Throws FileError.

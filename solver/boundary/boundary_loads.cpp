@@ -144,7 +144,8 @@ template <int Dim>
 void BoundaryLoads<Dim>::place(const std::map<std::string, LoadedSurface<Dim>>& surfaces) {
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     const auto found = surfaces.find(scene_.boundaries[boundary_[k]].on);
-    if (found != surfaces.end()) surfaces_[k] = found->second;
+    if (found == surfaces.end() || !found->second.starts_as(surfaces_[k])) continue;
+    surfaces_[k] = found->second;
   }
 }
 

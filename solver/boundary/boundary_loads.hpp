@@ -40,7 +40,8 @@ class BoundaryLoads {
 
   /// The surfaces by the name of their boundary.
   [[nodiscard]] std::map<std::string, LoadedSurface<Dim>> surfaces() const;
-  /// Sets surfaces that are loaded in this scene too to the places where another run has left them.
+  /// Sets surfaces to the places where another run has left those of the same boundary, if they
+  /// started on the same faces.
   void place(const std::map<std::string, LoadedSurface<Dim>>& surfaces);
 
   void archive(auto& archive) { archive(surfaces_); }

@@ -72,9 +72,9 @@ struct BoundaryTime {
   double end = 0.0;        ///< of heads and pressures: the end of the stage
   double of_fluxes = 0.0;  ///< of fluxes and rain
 
-  /// Of a stage that ends `share` of the step after its start. One stage may have the mean flux of
-  /// the step, so that the volume of a table enters; two stages do so with their own fluxes. (The
-  /// error of linear flow in rigid soil would take a change of the mean for a jump.)
+  /// Values of a stage that ends `share` of the step after its start. One stage may have the mean
+  /// flux of the step, so that the volume of a table enters; two stages do so with their own
+  /// fluxes. (The error of linear flow in rigid soil would take a change of the mean for a jump.)
   static BoundaryTime of_stage(double start, double dt, double share, bool has_mean) {
     return {start + share * dt, start + (has_mean ? 0.5 : share) * dt};
   }

@@ -152,7 +152,8 @@ Vector<Dim> downwards(const std::array<double, 3>& gravity) {
 
 template <int Dim>
 LoadedSurface<Dim>::LoadedSurface(const Grid<Dim>& grid, const PointsByElement& sorted,
-                                  const std::vector<int>& faces) {
+                                  const std::vector<int>& faces)
+    : start_(faces) {
   std::map<int, int> corner_of_node;
   for (const int f : faces) {
     const int e = soil_beside(grid, sorted, f);

@@ -88,7 +88,11 @@ class LoadedSurface {
             const NodeVectors<Dim>& displacement);
 
   [[nodiscard]] const std::vector<Vector<Dim>>& places() const { return position_; }
-  void archive(auto& archive) { archive(corner_, face_, position_, element_, area_, normal_); }
+  /// Whether both started on the same faces of the mesh.
+  [[nodiscard]] bool starts_as(const LoadedSurface& other) const { return start_ == other.start_; }
+  void archive(auto& archive) {
+    archive(start_, corner_, face_, position_, element_, area_, normal_);
+  }
 
  private:
   /// Finds the places and normals of the faces from their corners.
@@ -96,6 +100,7 @@ class LoadedSurface {
   void add_force(const Grid<Dim>& grid, const PointsByElement& sorted, int place,
                  const Vector<Dim>& force, NodalLoads<Dim>& loads) const;
 
+  std::vector<int> start_;                  ///< faces of the mesh
   std::vector<Vector<Dim>> corner_;         ///< m
   std::vector<std::array<int, Dim>> face_;  ///< corners, in the order of their vector area
   // Per place, `Dim` of each face:

@@ -18,7 +18,7 @@ namespace {
 constexpr double held_storage = 1.5;
 /// Share of this storage that remains where soil with inertia has a mobility instead: it fixes the
 /// level of the pressure.
-constexpr double beside_mobility = 1e-3;
+constexpr double share_with_mobility = 1e-3;
 /// Elements whose suction acts on the soil by a smaller share have no such storage.
 constexpr double least_suction_share = 1e-3;
 constexpr int max_coupling_iterations = 40;
@@ -110,7 +110,7 @@ struct Approach {
     return iteration == 1 && rise.squaredNorm() > 0.0;
   }
   /// Whether to go on after an iteration with this difference, Pa.
-  bool goes_on(double off, double allowed) {
+  bool is_running_after(double off, double allowed) {
     if (off < nearer * nearest) {
       nearest = off;
       nearest_at = iteration;
@@ -178,7 +178,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
       largest_of_soil(pressure_on_solid(grid_, soils, pressure, at_start.porosity, air),
                       forcing.mean_storage),
       start.tolerance);
-  Eigen::VectorXd beside = Eigen::VectorXd::Zero(rise.size());  // rise found beside the soil
+  Eigen::VectorXd elsewhere = Eigen::VectorXd::Zero(rise.size());  // rise at faces without soil
   Approach approach;
   while (approach.begins()) {
     ++step.iterations;
@@ -201,11 +201,11 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
                                           ? motion.face_volume
                                           : without_air(motion, start.state, at_start, forcing);
     forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
-    forcing.expected_rise = as_std_vector(rise + beside);
+    forcing.expected_rise = as_std_vector(rise + elsewhere);
     MixedStep<Dim> found = scheme.step(start.state, dt, {&forcing});
     const Eigen::VectorXd all = rise_between(start.state.face_pressure, found.end.face_pressure);
     const Eigen::VectorXd rose = at_soil(all, forcing.mean_storage);
-    beside = all - rose;
+    elsewhere = all - rose;
     const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
     const Eigen::VectorXd differs = acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs();
     const double off = differs.maxCoeff(&approach.worst_element);
@@ -215,7 +215,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
       step.flow.found = std::move(found);
       return std::nullopt;
     }
-    if (!approach.goes_on(off, allowed)) break;
+    if (!approach.is_running_after(off, allowed)) break;
     rise = mixing.next(rise, rose);
   }
   return approach.not_found(grid_);
@@ -245,7 +245,7 @@ std::vector<double> FlowAndMotion<Dim>::held_by_soil(const Eigen::VectorXd& acts
   std::vector<double> result = solid_.compressibility(dt);
   for (double& storage : result) storage *= held_storage;
   for (std::size_t e = 0; e < mean_mobility.size(); ++e) {
-    if (mean_mobility[e] > 0.0) result[e] *= beside_mobility;
+    if (mean_mobility[e] > 0.0) result[e] *= share_with_mobility;
   }
   for (std::size_t e = 0; e < result.size(); ++e) {
     // Suction acts on the soil, and the soil on the water, by the filled share of the pores.

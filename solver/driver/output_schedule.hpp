@@ -39,7 +39,7 @@ class OutputTimes {
   void advance() {
     last_ = next();
     ++past_;
-    if (multiple() <= end_) ++index_;
+    if (multiple() <= end_ || is_same_time(multiple(), end_)) ++index_;
   }
   /// Number of all times.
   [[nodiscard]] long count() const {

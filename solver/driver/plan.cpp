@@ -151,7 +151,8 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
   }
 }
 
-/// With faces that open, close or fall dry, the iteration of the implicit flow needs linear drag.
+/// Refuses Ergun's drag where faces open, close or fall dry: the iteration of the implicit flow
+/// needs linear drag there.
 template <int Dim>
 void refuse_ergun_beside_switching_faces(const Case<Dim>& c,
                                          const std::vector<FaceCondition>& conditions) {
@@ -163,7 +164,7 @@ void refuse_ergun_beside_switching_faces(const Case<Dim>& c,
   const std::string name = boundary.seepage_face ? "seepage_face" : boundary.rain ? "rain" : "head";
   const std::string key = joined("soil", shown_name(ergun->region)) + ".drag";
   throw InputError(InputProblem{c.document.locate(key), key,
-                                "\"ergun\" beside " + joined(boundary.key, name),
+                                "\"ergun\" with " + joined(boundary.key, name),
                                 "\"darcy\": where faces open, close or fall dry, drag is linear"});
 }
 
@@ -240,7 +241,7 @@ void describe_implicit_flow(const Scene& scene, const SolverOptions& options, Pl
       (plan.flow.step_given ? "of " + short_text(plan.flow.step) + " s as given"
                             : "chosen for a local error of " + short_text(scene.time.tolerance)));
   const std::string why = scene.time.inertia   ? "as the scene says"
-                          : scene.moves()      ? "soil that fails has it with its own"
+                          : scene.moves()      ? "it is part of that of the failing soil"
                           : retains_air(scene) ? "air gives way before it counts"
                           : plan.flow.inertia  ? "too long to leave out"
                                                : "too short to be noticed";

@@ -18,7 +18,7 @@ struct RunOptions {
 };
 
 /// Runs a case to its end into `folder`. Returns ExitCode::done, or ExitCode::interrupted after
-/// SIGINT, SIGTERM or SIGHUP (with a checkpoint, and a message how to continue). A resumed run
+/// a signal of `catch_interrupts` (with a checkpoint, and a message how to continue). A resumed run
 /// gives the same bits as one that never stopped, on any number of threads. Throws NumericalError
 /// and FileError, noted in run.json, and InputError if the folder holds the results of another
 /// case. Takes the case by value, to free its liquid points when the model has its own: move it in.

@@ -48,6 +48,23 @@ FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
   return found;
 }
 
+/// Warns if the run in `folder` has inertia of the liquid and this case has not, or the reverse:
+/// by default this depends on `time.end`.
+template <int Dim>
+void warn_of_other_inertia(const Case<Dim>& c, const std::string& folder,
+                           const SolverOptions& options) {
+  const Case<Dim> earlier = read_case<Dim>(layout::in_folder(folder, layout::case_copy));
+  if (earlier.document.scene.time.end == c.document.scene.time.end) return;
+  const SolverOptions alone{options.threads, options.no_skip};
+  const bool had = make_plan(earlier, alone).flow.inertia;
+  if (had == make_plan(c, alone).flow.inertia) return;
+  std::fprintf(stderr,
+               "suffuse-solver: warning: time.inertia is %s with this time.end, and was %s with "
+               "time.end = %s s; the same throughout: run anew, without --resume\n",
+               had ? "false" : "true", had ? "true" : "false",
+               shown_number(earlier.document.scene.time.end).c_str());
+}
+
 template <int Dim>
 bool is_complete(const Case<Dim>& c, const std::string& folder, const SolverOptions& options) {
   if (!is_finished(folder)) return false;
@@ -83,6 +100,7 @@ std::optional<StartingPoint> find_starting_point(const Case<Dim>& c, const std::
                     ": cannot be resumed: no snapshot there has a state to go on from; choose "
                     "another folder with -o, or run anew without --resume");
   }
+  if (found.point) warn_of_other_inertia(c, folder, options);
   result.from = std::move(found.point);
   return result;
 }

@@ -211,8 +211,8 @@ void Equilibrium<Dim>::respond(bool with_tangents, int e) {
   stress_[e] += effective_[e] * inverse_[e].transpose();
 }
 
-/// With T the stress of the laws, Fm = (Jm/J)^(1/d) F and g = dF F^-1: dFm Fm^-1 = g + (theta - tr
-/// g)/d. The work T : dFm Fm^-1 of all elements is S : g with S = T + (mu - m) I, m = tr T/d and
+/// Let T be the stress of the laws, Fm = (Jm/J)^(1/d) F and g = dF F^-1: dFm Fm^-1 = g + (theta -
+/// tr g)/d. The work T : dFm Fm^-1 of all elements is S : g with S = T + (mu - m) I, m = tr T/d and
 /// mu = J_e w_e/(sum w) sum m/Jm.
 template <int Dim>
 void Equilibrium<Dim>::share_stress(double spread, bool with_tangents, int e) {

@@ -16,7 +16,7 @@
 namespace suffuse {
 namespace {
 
-/// With more elements, solving for the steady flow takes too long for a warning.
+/// Most elements: to solve for the steady flow of more takes too long for a warning.
 constexpr int max_elements_checked = 100000;
 
 /// Largest number of steps between two couplings.

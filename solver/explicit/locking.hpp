@@ -8,7 +8,7 @@
 
 namespace suffuse {
 
-/// With one pressure per element, linear velocities have so few degrees of freedom on general
+/// If each element has one pressure, linear velocities have so few degrees of freedom on general
 /// triangles that curved flows are hindered, on regular meshes altogether ("volumetric locking").
 /// Returns the relative L2 difference of the steady Darcy flux `velocity` (intrinsic, per node)
 /// from that of mixed finite elements: it falls with the mesh where the scheme follows, and stays

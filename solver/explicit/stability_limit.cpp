@@ -81,18 +81,18 @@ double largest_eigenvalue(const Compression<Dim>& compression) {
   now.normalize();
   Eigen::VectorXd before = Eigen::VectorXd::Zero(size);
   std::vector<double> diagonal;
-  std::vector<double> beside;
+  std::vector<double> off_diagonal;
   double bound = 0.0;
   for (int round = 0; round < max_rounds; ++round) {
     Eigen::VectorXd next = compression(now);
     diagonal.push_back(now.dot(next));
     next -= diagonal.back() * now;
-    if (!beside.empty()) next -= beside.back() * before;
+    if (!off_diagonal.empty()) next -= off_diagonal.back() * before;
     const double norm = next.norm();
     const Eigen::Map<const Eigen::VectorXd> d(diagonal.data(),
                                               static_cast<Eigen::Index>(diagonal.size()));
-    const Eigen::Map<const Eigen::VectorXd> b(beside.data(),
-                                              static_cast<Eigen::Index>(beside.size()));
+    const Eigen::Map<const Eigen::VectorXd> b(off_diagonal.data(),
+                                              static_cast<Eigen::Index>(off_diagonal.size()));
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
     solver.computeFromTridiagonal(d, b);
     const Eigen::Index last = d.size() - 1;
@@ -100,7 +100,7 @@ double largest_eigenvalue(const Compression<Dim>& compression) {
     const double error = norm * std::abs(solver.eigenvectors()(last, last));
     bound = largest + error;
     if (error <= goal * largest || norm == 0.0) break;
-    beside.push_back(norm);
+    off_diagonal.push_back(norm);
     before = now;
     now = next / norm;
   }

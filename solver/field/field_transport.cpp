@@ -15,6 +15,10 @@ void gain(FinesState<Dim>& state, const std::vector<double>& gained) {
     add_liquid<Dim>(state.liquid_volume[e], gained[e]);
 }
 
+/// More steps of explicit transport in a step of the flow take too long.
+constexpr StepCountLimit count_limit{1e6,
+                                     "take time.transport = \"implicit\", or a shorter time.step"};
+
 }  // namespace
 
 template <int Dim>
@@ -155,8 +159,8 @@ std::vector<TransportStep> FieldTransport<Dim>::start_steps(double start, const 
     gain(after, gained);
     allowed = std::min(allowed, scheme_.steps_allowed(after, flow.volumes.liquid));
   }
-  std::vector<TransportStep> steps =
-      equal_steps(start, flow.end, step_count(transport_safety * allowed));
+  std::vector<TransportStep> steps = equal_steps(
+      start, flow.end, step_count(transport_safety * allowed, start, flow.end, count_limit));
   std::vector<double> step_volume = flow.volumes.liquid;
   if (steps.size() > 1) {
     for (double& volume : step_volume) volume *= steps.front().share;

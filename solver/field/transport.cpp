@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include "common/errors.hpp"
 
 namespace suffuse {
 
@@ -16,9 +19,14 @@ std::vector<TransportStep> equal_steps(double start, double end, double count) {
   return steps;
 }
 
-double step_count(double allowed) {
+double step_count(double allowed, double start, double end, const StepCountLimit& limit) {
   constexpr double little = 0.01;
-  return std::max(1.0, std::ceil((1.0 - little) / allowed));
+  const double count = std::max(1.0, std::ceil((1.0 - little) / allowed));
+  if (allowed > 0.0 && count <= limit.most) return count;
+  std::ostringstream message;
+  message << "t = " << start << " s: transport takes more than " << limit.most << " steps to "
+          << end << " s; " << limit.advice;
+  throw NumericalError(message.str());
 }
 
 }  // namespace suffuse

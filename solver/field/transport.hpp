@@ -51,8 +51,16 @@ inline constexpr double transport_safety = 0.9;
 /// Divides an interval into `count` equal steps.
 std::vector<TransportStep> equal_steps(double start, double end, double count);
 
-/// Number of steps over an interval if a step may be the share `allowed` of it (safety included).
-/// Rounds down within 1 %, which the safety covers: intervals are often whole steps.
-double step_count(double allowed);
+/// Most steps of transport in an interval, and what to do about more.
+struct StepCountLimit {
+  double most;
+  const char* advice;
+};
+
+/// Number of steps from `start` to `end`, s, if a step may be the share `allowed` of this time
+/// (safety included).
+/// Rounds down within 1 %, which the safety covers: intervals are often whole steps. Throws
+/// NumericalError if there are more than the limit, or if `allowed` is not a positive number.
+double step_count(double allowed, double start, double end, const StepCountLimit& limit);
 
 }  // namespace suffuse

@@ -97,7 +97,7 @@ class ElementTableReader {
         report(strain, "no column", listed({strain, stress}) + ", or both");
       }
     }
-    if (has("t") && has("step")) report("step", "a column beside t", "one of the two");
+    if (has("t") && has("step")) report("step", "a column in addition to t", "one of the two");
     table_.moment = has("t") ? "t" : "step";
   }
 
@@ -155,7 +155,7 @@ class ElementTableReader {
         report(strain, shown_number(*row.strain[c]),
                "0 or nothing in the first row, which is the start");
       } else if (row.strain[c] && row.stress[c]) {
-        report(stress, "a value beside that of " + strain, "one of the two");
+        report(stress, "a value in addition to that of " + strain, "one of the two");
       } else if (!row.strain[c] && !row.stress[c] && (has(strain) || has(stress))) {
         report(has(strain) ? strain : stress, "nothing", "a value, of a strain or a stress");
       }

@@ -66,12 +66,12 @@ struct HistoryRow {
   double newton_iterations = 0.0;  ///< of the solid's equilibrium, since the start
   double inertia = 0.0;  ///< forces of inertia over the loads, in the last step; 0 in equilibrium
   double failure_time = 0.0;  ///< last loss of equilibrium, s; 0: never, or at t = 0
-  // With mesh.error, m3/s: bounds of `flux_out`. Where there are none: half the interval that the
-  // mesh is estimated to leave, or 0 without an estimate.
+  // Bounds of `flux_out` where mesh.error is given, m3/s. Where there are none: half the interval
+  // that the mesh is estimated to leave, or 0 without an estimate.
   double flux_out_low = 0.0;
   double flux_out_high = 0.0;
   double flux_out_estimate = 0.0;
-  // With mesh.error: estimates of the errors of the last step, m3/s.
+  // Where mesh.error is given: estimates of the errors of the last step, m3/s.
   double flux_out_time_estimate = 0.0;
   double flux_out_transport_estimate = 0.0;
 
@@ -246,8 +246,9 @@ struct ProbeRow {
   double flux_y = 0.0;
   double z = 0.0;       ///< m; 0 in 2D, like `flux_z`
   double flux_z = 0.0;  ///< m/s
-  // With mesh.error: means over a disc of radius `disc`, m, around the probe, and what the mesh,
-  // the last step in time and what transport changed in it add to their errors. Otherwise 0.
+  // Where mesh.error is given: means over a disc of radius `disc`, m, around the probe, and what
+  // the mesh, the last step in time and what transport changed in it add to their errors. Otherwise
+  // 0.
   double disc = 0.0;
   double head_mean = 0.0;  ///< m
   double head_mean_estimate = 0.0;

@@ -106,8 +106,9 @@ class FlowSolver {
   }
 
   /// Finds one or more steps within the interval, for a solid that does not move. They end exactly
-  /// on a breakpoint or the latest end if they reach one. The flow does not change; only the choice
-  /// of later steps learns from the attempts. Throws NumericalError.
+  /// on a breakpoint or the latest end if they reach one. The flow does not change, but for what
+  /// no result shows: the choice of later steps learns from the attempts, and a steady flow is
+  /// solved anew with the sources that it has now. Throws NumericalError.
   virtual FlowStep<Dim> solve(const FlowInterval<Dim>& interval) = 0;
   /// Takes the steps: sets pressures and fluxes to those at their end.
   virtual FlowProgress commit(FlowStep<Dim> step) = 0;

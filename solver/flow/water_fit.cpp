@@ -80,8 +80,8 @@ struct Fit {
   bool is_needed;
 };
 
-/// Of these masses, kg per element, at these pressures, Pa. Throws NumericalError on all ranks
-/// where they do not fit; `refuse_dry(e)` throws for an element without water.
+/// Mismatch of these masses, kg per element, at these pressures, Pa. Throws NumericalError on all
+/// ranks where they do not fit; `refuse_dry(e)` throws for an element without water.
 template <int Dim>
 Mismatch mismatch_of(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                      const LiquidProperties& liquid, const std::vector<double>& pressure,

@@ -19,12 +19,13 @@ void DoublePoint<Dim>::advance(double latest) {
   CoupledStep<Dim> step =
       this->coupled_->solve({start, latest, this->coupling_interval(), forecast});
   const FlowProgress flow = this->coupled_->commit(std::move(step));
-  this->note_flow(start, flow);
+  this->start_exchange(start, flow);
   // Erosion (Eqs. 1, 6, 7), transport by points (Eq. 5), and deposition.
   const RegionCrossings& crossed =
       liquid_->move(start, flow, this->flow_->pressure(), this->exchange_);
   this->time_ = flow.end;
-  // Masses that crossed borders with the points.
+  // Masses that crossed borders with the flow and with the points.
+  this->book_liquid(flow);
   this->masses_.book(crossed);
   update_flow(pores());
 }

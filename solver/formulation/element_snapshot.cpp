@@ -122,7 +122,7 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   PointFlows flows =
       point_flows(grid, solid.soils(), flow.face_flux, std::numeric_limits<double>::infinity(), 1);
   solid.find_eroding_flux(flows);
-  if (!flows.eroding_flux.empty()) {
+  if (solid.soils().exchange_depends_on().surroundings) {
     result.cell.push_back(
         {"eroding_flux", "m/s", 1, element_means(solid.soils(), flows.eroding_flux)});
   }

@@ -30,11 +30,12 @@ void SinglePoint<Dim>::advance(double latest) {
   CoupledStep<Dim> step =
       this->coupled_->solve({start, latest, this->coupling_interval(), forecast});
   const FlowProgress flow = this->coupled_->commit(std::move(step));
-  this->note_flow(start, flow);
+  this->start_exchange(start, flow);
   // Erosion (Eqs. 1, 6, 7), deposition, and transport (Eq. 3), with the volumes that crossed faces.
   std::vector<double> fines = fines_->move(start, flow, this->exchange_);
   this->time_ = flow.end;
   // Masses, and the pressures that follow from them.
+  this->book_liquid(flow);
   book(flow.volumes, std::move(fines));
   update_flow();
   match_masses();
@@ -123,7 +124,7 @@ void SinglePoint<Dim>::find_liquid(PointFlows& flows) const {
   const FinesState<Dim>& state = fines_->state();
   const MaterialPoints<Dim>& points = this->soils_.points();
   const std::vector<double> air = this->flow_->air();
-  const bool flows_on = fines_->is_implicit(this->mean_face_rate());
+  const bool flows_on = fines_->is_implicit(this->flux_history_.mean);
   flows.motion = flows_on ? LiquidMotion::flows_on : LiquidMotion::stays;
   flows.concentration.resize(points.size());
   if (!air.empty()) flows.saturation.resize(air.size());

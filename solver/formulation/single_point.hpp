@@ -33,7 +33,7 @@ class SinglePoint final : public TwoPhaseModel<Dim> {
   [[nodiscard]] PoreState pores_with(std::vector<double> air_volume) const;
   /// Concentration of the liquid that crosses each face.
   [[nodiscard]] std::vector<double> face_concentration() const {
-    return fines_->face_concentration(this->time_, this->mean_face_rate());
+    return fines_->face_concentration(this->time_, this->flux_history_.mean);
   }
   void find_liquid(PointFlows& flows) const override;
   [[nodiscard]] FinesState<Dim> fines_state(const FlowState<Dim>& /*flow*/) const override {

@@ -54,7 +54,8 @@ double TwoPhaseModel<Dim>::coupling_interval() const {
     const double flux = fluxes.empty() ? unset : fluxes[e];
     const double c = concentration.empty() ? unset : concentration[e];
     const SoilPlace place{
-        soils_.soil_of_element(e).initial_porosity(element_centroid(grid_.mesh, e)), porosity[e]};
+        soils_.soil_of_element(e).initial_porosity(element_centroid(grid_.mesh, e)), porosity[e],
+        soils_.conductivity_factor(e)};
     const Exchange rate =
         exchange_rate(model, place, {.flux_start = flux, .flux_end = flux, .concentration = c},
                       std::max(time_, model.erosion.start));
@@ -62,11 +63,6 @@ double TwoPhaseModel<Dim>::coupling_interval() const {
     if (fastest > 0.0) longest = std::min(longest, growth * porosity[e] / fastest);
   }
   return smallest_of_all(grid_.ranks(), longest);
-}
-
-template <int Dim>
-std::vector<double> TwoPhaseModel<Dim>::element_flux_magnitude() const {
-  return acting_element_flux(grid_, *solid_, flux_history_, threads());
 }
 
 template <int Dim>
@@ -101,11 +97,11 @@ void TwoPhaseModel<Dim>::start_flux_history() {
 }
 
 template <int Dim>
-void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
-  const typename SoilMap<Dim>::Dependence& needed = soils_.exchange_depends_on();
+void TwoPhaseModel<Dim>::start_exchange(double start, const FlowProgress& flow) {
   flux_history_.duration = flow.end - start;
   flux_history_.mean = per_time(flow.relative_volumes(), flux_history_.duration);
-  flux_history_.end = needed.flux ? flow_->face_flux(flow.end) : flux_history_.mean;
+  flux_history_.end =
+      soils_.exchange_depends_on().flux ? flow_->face_flux(flow.end) : flux_history_.mean;
   PointFlows flows =
       point_flows(grid_, soils_, flux_history_.mean, flux_history_.duration, threads());
   flows.start = start;
@@ -114,10 +110,14 @@ void TwoPhaseModel<Dim>::note_flow(double start, const FlowProgress& flow) {
   find_flux_change(grid_, soils_, flux_history_, flows, threads());
   solid_->find_eroding_flux(flows);
   exchange_.start_interval(std::move(flows));
+}
+
+template <int Dim>
+void TwoPhaseModel<Dim>::book_liquid(const FlowProgress& flow) {
+  flow_->check_suction(flow.end);
   masses_.book_liquid(flow.volumes.liquid);
   observations_.book_liquid(flow.volumes.liquid);
   steps_ += flow.steps;
-  flow_->check_suction(flow.end);
   last_dt_ = flow.dt;
 }
 

@@ -131,12 +131,15 @@ class TwoPhaseModel {
     update();
     start_flux_history();
   }
-  /// Mean flux through faces over the last interval, m3/s.
-  [[nodiscard]] const std::vector<double>& mean_face_rate() const { return flux_history_.mean; }
-  /// Records fluxes and steps of an interval of the flow that started at `start`, s.
-  void note_flow(double start, const FlowProgress& flow);
+  /// Takes the fluxes of an interval of the flow from `start`, s, for erosion and deposition.
+  void start_exchange(double start, const FlowProgress& flow);
+  /// Books the liquid that has crossed boundaries and sections, and counts the steps of the flow.
+  /// Throws NumericalError if suction leaves hardly any liquid.
+  void book_liquid(const FlowProgress& flow);
   /// Flux per element at its centroid over the last interval, m/s; empty if no soil uses it.
-  [[nodiscard]] std::vector<double> element_flux_magnitude() const;
+  [[nodiscard]] std::vector<double> element_flux_magnitude() const {
+    return acting_element_flux(grid_, *solid_, flux_history_, threads());
+  }
   /// A row with the entries that do not depend on the transport.
   [[nodiscard]] HistoryRow common_history(const FlowState<Dim>& flow) const;
   /// Sets the row's entries on eroded and lost mass.
@@ -161,9 +164,9 @@ class TwoPhaseModel {
   double grain_density_;
   double time_ = 0.0;
   SolidExchange<Dim> exchange_;
+  FluxHistory flux_history_;  ///< over the last interval
 
  private:
-  FluxHistory flux_history_;
   double last_dt_ = 0.0;
   long steps_ = 0;
 };

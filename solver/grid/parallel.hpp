@@ -6,6 +6,8 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "common/deadline.hpp"
 
@@ -54,20 +56,24 @@ void for_each_index(int count, int threads, const Body& body, int worth = worth_
   });
 }
 
-/// The largest `value(i)`, or `least` if none is larger; independent of the order.
+/// The largest `value(i)`, or `least` if none is larger; infinity if one is not a number.
+/// Independent of the order.
 template <class Value>
 double largest_of(int count, int threads, double least, const Value& value) {
   double largest = least;
   share_among(threads, count, worth_threads, [&](int begin, int end) {
     double of_part = least;
-    for (int i = begin; i < end; ++i) of_part = std::max(of_part, value(i));
+    for (int i = begin; i < end; ++i) {
+      const double v = value(i);
+      of_part = std::isnan(v) ? std::numeric_limits<double>::infinity() : std::max(of_part, v);
+    }
 #pragma omp critical(suffuse_largest_of)
     largest = std::max(largest, of_part);
   });
   return largest;
 }
 
-/// The smallest `value(i)`, or `most` if none is smaller.
+/// The smallest `value(i)`, or `most` if none is smaller; -infinity if one is not a number.
 template <class Value>
 double smallest_of(int count, int threads, double most, const Value& value) {
   return -largest_of(count, threads, -most, [&](int i) { return -value(i); });

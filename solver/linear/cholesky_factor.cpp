@@ -10,7 +10,7 @@ void CholeskyFactor::factorise(const Eigen::SparseMatrix<double>& matrix) {
   factor_.factorize(matrix);
   if (factor_.info() != Eigen::Success || !(factor_.vectorD().minCoeff() > 0.0)) {
     throw NumericalError(
-        "the pressures could not be solved for: the matrix of the flow is not positive definite");
+        "a linear system could not be solved: its matrix is not positive definite");
   }
 }
 

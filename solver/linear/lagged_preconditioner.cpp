@@ -66,7 +66,7 @@ Eigen::VectorXd LaggedPreconditioner::solve_directly(const SymmetricSystem& syst
     counts_.iterations += patient_gradients_.iterations();
     if (solved) return solution;
     if (system.matrix.rows() > most_direct_rows) {
-      throw NumericalError("the pressures could not be solved for: " +
+      throw NumericalError("a linear system could not be solved: " +
                            std::to_string(patient_gradients_.iterations()) +
                            " iterations with multigrid are not enough; expected is a conductivity "
                            "that differs less along and across the bedding, or a coarser mesh");
@@ -117,7 +117,8 @@ Eigen::VectorXd LaggedPreconditioner::solve(const SymmetricSystem& system) {
   if (!factored) factorise(matrix);
   Eigen::VectorXd x = solve_directly(system);
   if (!x.allFinite()) {
-    throw NumericalError("the pressures could not be solved for: they are not finite numbers");
+    throw NumericalError(
+        "a linear system could not be solved: not all numbers of the solution are finite");
   }
   return x;
 }

@@ -118,7 +118,7 @@ void Multigrid::factorise(const Matrix& matrix) {
     level.diagonal = level.matrix.diagonal();
     if (!(level.diagonal.minCoeff() > 0.0) || !level.diagonal.allFinite()) {
       throw NumericalError(
-          "the pressures could not be solved for: the matrix of the flow is not positive definite");
+          "a linear system could not be solved: its matrix is not positive definite");
     }
   }
   coarsest_ = std::make_unique<CholeskyFactor>();

@@ -34,7 +34,7 @@ SharedSystem::SharedSystem(const Ranks& ranks, const OwnRows& mesh_rows,
 
 void SharedSystem::factorise(const Eigen::SparseMatrix<double>& matrix) {
   const double* values = matrix.valuePtr();
-  // Of own rows: those of others are not complete.
+  // Own rows only: those of others are not complete.
   const int begin = matrix.outerIndexPtr()[first_];
   const int end = matrix.outerIndexPtr()[last_];
   const bool same =
@@ -121,7 +121,8 @@ Eigen::VectorXd SharedSystem::solve(const SymmetricSystem& system) {
     rows_.exchange(x);
     excess = find_residual(system, x);
     if (!std::isfinite(excess)) {
-      throw NumericalError("the pressures could not be solved for: they are not finite numbers");
+      throw NumericalError(
+          "a linear system could not be solved: not all numbers of the solution are finite");
     }
     without_gain = excess < gain * least ? 0 : without_gain + 1;
     if (excess < least) {

@@ -37,7 +37,7 @@ struct FlowSoils {
   /// pressures are solved for in a linear system.
   [[nodiscard]] RetentionState at(int e, double pressure) const {
     constexpr double driest = 1e-20;
-    // With a lower k_r pressures in free space are unbounded, and the iteration does not end.
+    // If k_r were lower, pressures in free space are unbounded, and the iteration does not end.
     constexpr double film = 1e-6;
     const double psi = pressure * head_per_pressure;
     RetentionState state = retention[e].at(psi);

@@ -233,12 +233,12 @@ struct MixedStage {
   void bound_walls() {
     constexpr double most_of_elements = 1e6;
     for (LeakyFace& wall : walls) {
-      double beside = 0.0;
+      double of_element = 0.0;
       for (const int f : {wall.face, wall.partner}) {
         const int e = model.grid.face_left[f];
-        beside = std::max(beside, matrix.largest_product(e) / resistance[e]);
+        of_element = std::max(of_element, matrix.largest_product(e) / resistance[e]);
       }
-      wall.conductance = std::min(wall.conductance, most_of_elements * beside);
+      wall.conductance = std::min(wall.conductance, most_of_elements * of_element);
     }
   }
   void guess_pressure(const std::vector<double>& rise_rate) {

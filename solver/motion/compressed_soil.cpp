@@ -42,7 +42,8 @@ void refuse_impossible(const Grid<Dim>& grid, const std::vector<double>& solid_v
     if (porosity > 0.0 && porosity <= 1.0 + round_off) continue;
     std::ostringstream message;
     message << "t = " << time << " s: soil that moves "
-            << (porosity <= 0.0 ? "is compressed to its grains" : "would leave less than no solid")
+            << (porosity <= 0.0 ? "is compressed to its grains"
+                                : "leaves a negative volume of solid")
             << " in " << element_text(grid, e) << " (porosity " << porosity
             << "); expected are smaller elements, soil that is stiffer against its loads, or room "
                "above where it rises over the edge of the mesh (a region free_above, or one with "

@@ -60,9 +60,9 @@ struct ExchangeModel {
 
 /// The solid at a place.
 struct SoilPlace {
-  double initial_porosity = unset;   ///< n_0
-  double porosity = unset;           ///< n_L
-  double conductivity_factor = 1.0;  ///< k at this place over that of the model
+  double initial_porosity = unset;  ///< n_0
+  double porosity = unset;          ///< n_L
+  double conductivity_factor;       ///< k at this place over that of the model
 };
 
 /// Motion of the liquid at a place during a step.

@@ -27,7 +27,7 @@ class FinesTransfer {
   FinesTransfer(const Grid<Dim>& grid, const SoilMap<Dim>& soils, const SharedPoints<Dim>& shared,
                 double grain_density);
 
-  /// Of this rank.
+  /// Sums of this rank.
   struct Result {
     std::vector<ExactSum> received;  ///< per region: fines its liquid took up, kg
     std::vector<ExactSum> eroded;    ///< per region: fines its solid lost, kg

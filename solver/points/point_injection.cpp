@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <sstream>
 #include <tuple>
 
@@ -48,9 +49,11 @@ InjectionSettings injection_settings(const Case<Dim>& c, const Grid<Dim>& grid) 
   InjectionSettings result;
   result.random = c.document.scene.points.seeding == Seeding::random;
   result.seed = c.document.scene.points.seed;
+  // Points of equal volume leave out elements that hold less than one.
+  const double mean = std::accumulate(volume.begin(), volume.end(), 0.0) / points.size();
   for (const int e : grid.face_left) {
-    result.point_volume.push_back(volume[e] / count[e]);
-    result.points_per_element.push_back(count[e]);
+    result.point_volume.push_back(count[e] > 0 ? volume[e] / count[e] : mean);
+    result.points_per_element.push_back(std::max(count[e], 1));
   }
   return result;
 }

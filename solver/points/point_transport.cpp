@@ -34,7 +34,7 @@ const RegionCrossings& PointTransport<Dim>::move(double start, const FlowProgres
     const std::vector<double>& eroded = exchange.over({step.start, step.end}, dry_elements());
     if (exchange.depends_on_concentration()) concentration_before_ = element_concentration();
     advance(step, flow.volumes, eroded, pressure);
-    if (deposition_.deposited().empty()) continue;
+    if (!deposition_.active()) continue;
     exchange.deposit(deposition_.deposited());
     follow_deposits();
   }
@@ -123,19 +123,6 @@ void PointTransport<Dim>::book_deposition() {
     given_[r].add(deposition_.lost_by_region()[r]);
     received_[r].add(deposition_.by_region()[r]);
   }
-}
-
-double checked_step_count(double allowed, double start, double duration) {
-  // More steps mean that the flow has run away.
-  constexpr double max_steps = 1e4;
-  const double count = step_count(allowed);
-  if (!(count <= max_steps)) {
-    std::ostringstream message;
-    message << "the flow has run away: at t = " << start
-            << " s liquid would cross thousands of elements in " << duration << " s";
-    throw NumericalError(message.str());
-  }
-  return count;
 }
 
 template class PointTransport<2>;

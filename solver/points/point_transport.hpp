@@ -57,7 +57,7 @@ class PointTransport : public Transport<Dim> {
                               const std::vector<double>& pressure, SolidExchange<Dim>& exchange,
                               std::optional<double> steps = {});
 
-  /// Of this rank, sorted by element. The reference is valid until the next interval.
+  /// Points of this rank, sorted by element. The reference is valid until the next interval.
   [[nodiscard]] virtual const LiquidPoints<Dim>& points() const = 0;
   /// Likewise, with copies of the points in elements of other ranks that are here. All ranks have
   /// to call it.
@@ -146,9 +146,5 @@ class PointTransport : public Transport<Dim> {
   PassTiming fines_timing_{"transfer of fines", 0, 0.0};
   PassTiming movement_timing_{"movement of liquid points", 0, 0.0};
 };
-
-/// Number of steps of transport over an interval if one step may be the share `allowed` of it.
-/// Throws NumericalError if it is far too large.
-double checked_step_count(double allowed, double start, double duration);
 
 }  // namespace suffuse

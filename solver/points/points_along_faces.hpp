@@ -36,7 +36,8 @@ class PointsAlongFaces final : public PointTransport<Dim> {
   void start_interval(const FlowProgress& flow) override;
   [[nodiscard]] double steps_needed(double start, const FlowProgress& flow) const override {
     // In shares of the interval, because these volumes are those of the whole interval.
-    return checked_step_count(longest_step(flow.volumes.liquid), start, flow.end - start);
+    const double allowed = longest_step(flow.volumes.liquid);
+    return step_count(allowed, start, flow.end, {1e4, "the flow has run away"});
   }
   void advance(const TransportStep& step, const FaceVolumes& volumes,
                const std::vector<double>& eroded, const std::vector<double>& pressure) override;

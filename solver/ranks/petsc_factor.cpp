@@ -150,7 +150,7 @@ class PetscFactor final : public SharedFactor {
     return result;
   }
   [[noreturn]] static void refuse(int iterations) {
-    throw NumericalError("the pressures could not be solved for: " + std::to_string(iterations) +
+    throw NumericalError("a linear system could not be solved: " + std::to_string(iterations) +
                          " iterations with BoomerAMG are not enough");
   }
   void set(const std::vector<double>& rhs) {

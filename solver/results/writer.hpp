@@ -57,7 +57,8 @@ struct Snapshot {
   /// Linear field of each element at its vertices: Dim + 1 components, in the order of its nodes.
   /// `sample` reads these fields.
   std::vector<Field> element_vertex;
-  /// With mesh.error; the field `error` has the part of each element in half the interval.
+  /// Where mesh.error is given; the field `error` has the part of each element in half the
+  /// interval.
   std::optional<DischargeRecord> discharge = {};
   /// The state from which a run can continue after this snapshot.
   std::optional<RestartPoint> restart;

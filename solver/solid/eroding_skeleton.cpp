@@ -42,7 +42,7 @@ std::vector<double> ErodingSkeleton<Dim>::fines_left_at(const std::vector<double
 
 template <int Dim>
 void ErodingSkeleton<Dim>::find_eroding_flux(PointFlows& flows) const {
-  if (!nonlocal_flux_ || flows.flux.empty()) return;
+  if (!nonlocal_flux_ || !soils_.exchange_depends_on().flux) return;
   nonlocal_flux_->find(fines_left_at(porosity_), flows);
   const double middle = 0.5 * (flows.start + flows.end);
   if (flows.end <= flows.start || !exchanges_within(flows.start, middle)) return;
@@ -86,8 +86,8 @@ void ErodingSkeleton<Dim>::exchange_in(int element, double from, double to, cons
       take(p, eroded_at(model.erosion, p, porosity_[p], from, to, flows));
       continue;
     }
-    const SoilPlace place{initial_porosity_[p], porosity_[p], soils_.conductivity_factor(element)};
-    take(p, exchange_over(model, place, flows.at(p, element, from, to), from, to));
+    take(p,
+         exchange_over(model, place_of(p, porosity_[p]), flows.at(p, element, from, to), from, to));
   }
 }
 
@@ -146,7 +146,7 @@ Exchange ErodingSkeleton<Dim>::exchange_at(int point, double porosity, double co
   PlaceFlow flow = flows.at(point, e, from, to);
   flow.concentration = concentration;
   flow.motion = LiquidMotion::flows_on;
-  return exchange_over(model, {initial_porosity_[point], porosity}, flow, from, to);
+  return exchange_over(model, place_of(point, porosity), flow, from, to);
 }
 
 template <int Dim>
@@ -157,7 +157,7 @@ Exchange ErodingSkeleton<Dim>::exchange_rate_at(int point, double porosity, doub
   flow.concentration = concentration;
   flow.motion = LiquidMotion::flows_on;
   ExchangeModel changed;
-  return exchange_rate(model_of(point, changed), {initial_porosity_[point], porosity}, flow, time);
+  return exchange_rate(model_of(point, changed), place_of(point, porosity), flow, time);
 }
 
 template <int Dim>

@@ -68,6 +68,11 @@ class ErodingSkeleton : public Skeleton<Dim> {
   /// The law of a point with its present parameters; `changed` stores them if they differ from
   /// those of its soil.
   const ExchangeModel& model_of(int point, ExchangeModel& changed) const;
+  /// The solid at a point, if its porosity becomes this.
+  [[nodiscard]] SoilPlace place_of(int point, double porosity) const {
+    const int e = soils_.points().element[point];
+    return {initial_porosity_[point], porosity, soils_.conductivity_factor(e)};
+  }
   /// Changes the state of a point; returns the volume that went into the liquid, m3.
   double take(int point, const Exchange& change);
   /// Throws NumericalError if deposits leave hardly any pores.

@@ -25,7 +25,7 @@ constexpr double still_share = 1e-15;
 constexpr double fringe = 0.25;
 constexpr double free_air_ratio = 100.0;
 
-/// Of all soils in their best direction, m/s.
+/// The largest conductivity of all soils in their best direction, m/s.
 double largest_conductivity(const Scene& scene) {
   double largest = 0.0;
   for (const Soil& soil : scene.soils) {
@@ -147,12 +147,6 @@ bool SoilMap<Dim>::erodes() const {
 }
 
 template <int Dim>
-bool SoilMap<Dim>::transfers_momentum() const {
-  return std::ranges::any_of(scene_.soils,
-                             [](const Soil& soil) { return soil.erosion.momentum_transfer; });
-}
-
-template <int Dim>
 bool SoilMap<Dim>::deposits() const {
   return std::ranges::any_of(
       exchange_of_region_, [](const ExchangeModel& model) { return model.deposition.deposits(); });
@@ -180,11 +174,6 @@ std::vector<double> SoilMap<Dim>::erosion_breakpoints(const Ranks& ranks) const 
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
-}
-
-template <int Dim>
-double SoilMap<Dim>::resistance_along(int element, const Vector<Dim>& flux) const {
-  return soil_of_element(element).resistance_along(flux);
 }
 
 template <int Dim>

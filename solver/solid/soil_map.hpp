@@ -3,6 +3,7 @@
 /// The soil of each element and each solid point, with its laws of exchange. Constant in a run,
 /// except for points that move.
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -101,7 +102,9 @@ class SoilMap {
     return still_flux_[region_of_element(element)];
   }
   /// Gradient along a flux over |q|/k, k being that along bedding; 1 for no flux.
-  [[nodiscard]] double resistance_along(int element, const Vector<Dim>& flux) const;
+  [[nodiscard]] double resistance_along(int element, const Vector<Dim>& flux) const {
+    return soil_of_element(element).resistance_along(flux);
+  }
   /// k of an element over that of its soil, whose conductivity may be a random field.
   [[nodiscard]] double conductivity_factor(int element) const {
     return conductivity_factor_ ? (*conductivity_factor_)[element] : 1.0;
@@ -114,7 +117,10 @@ class SoilMap {
   /// Whether some soil erodes.
   [[nodiscard]] bool erodes() const;
   /// Whether the momentum of eroded grains acts on the liquid in some soil.
-  [[nodiscard]] bool transfers_momentum() const;
+  [[nodiscard]] bool transfers_momentum() const {
+    return std::ranges::any_of(scene_.soils,
+                               [](const Soil& soil) { return soil.erosion.momentum_transfer; });
+  }
   /// Whether some soil catches fines.
   [[nodiscard]] bool deposits() const;
   /// What the exchange of some soil with the liquid depends on.

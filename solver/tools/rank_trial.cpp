@@ -18,8 +18,8 @@
 namespace suffuse {
 namespace {
 
-/// Of a trial whose steps are not given: so many steps and seconds of wall time, or so many
-/// seconds.
+/// A trial whose steps are not given ends after so many steps and seconds of wall time, or after
+/// so many seconds.
 constexpr long fewest_tried_steps = 3;
 constexpr double enough_seconds = 3.0;
 constexpr double most_seconds = 15.0;

@@ -392,7 +392,7 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
   refuse_without_strength(c.document);
   refuse_failing_soil(c, options.failing);
   if (!options.mechanism.empty() && options.time == "all") {
-    refuse_option("--mechanism", "a file beside --time all", "one time");
+    refuse_option("--mechanism", "a file with --time all", "one time");
   }
   TextOutput output(options.output);
   StrengthTable<Dim> table(c, options);

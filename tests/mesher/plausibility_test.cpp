@@ -131,6 +131,40 @@ TEST(Plausibility, AFileOfThousandsMayBeInMillimetres) {
                "is the unit that the STEP file states the right one?"});
 }
 
+TEST(Plausibility, KeysWithoutEffectAreNamed) {
+  const auto expect = [](const std::string& key, const std::string& value, const std::string& why,
+                         const std::vector<std::string>& with) {
+    std::vector<std::string> all{key + "=" + value};
+    EXPECT_EQ(of_keys(all),
+              Warnings{"--set " + all.front() + ": " + key + ": it has no effect here, as " + why});
+    all.insert(all.end(), with.begin(), with.end());
+    EXPECT_EQ(of_keys(all), Warnings{}) << key;
+  };
+  expect("points.seed", "3", "no points are placed by chance: points.jitter is 0",
+         {"points.jitter=0.1"});
+  expect("soil.specimen.porosity_origin", "[0, 1]", "porosity_gradient is 0",
+         {"soil.specimen.porosity_gradient=[0, 0.1]"});
+  expect("mesh.max_elements", "500", "without mesh.error the mesh is made once",
+         {"mesh.error=0.01", "mesh.structure=\"free\"", "time.scheme=implicit"});
+  expect("time.failure", "\"follow\"", "no soil moves",
+         {"soil.specimen.skeleton={law=\"elastic\", young=1e7, poisson=0.3}",
+          "boundary[1].fix=\"both\"", "time.scheme=implicit"});
+}
+
+TEST(Plausibility, ADiscIsForAnError) {
+  EXPECT_EQ(of_keys({"output.probe=[{at=[0.5, 0.5], disc=0.1}]"}),
+            Warnings{"--set output.probe=[{at=[0.5, 0.5], disc=0.1}]: output.probe[0].disc: it has "
+                     "no effect here, as means over it are found with mesh.error only"});
+}
+
+TEST(Plausibility, ALevelAtASteadyStartIsNamed) {
+  const Warnings found =
+      of_keys({"gravity=[0, -9.81]", "initial.water_level=1", "initial.flow=\"steady\""});
+  EXPECT_EQ(found, Warnings{"--set initial.water_level=1: initial.water_level: it has no effect "
+                            "here, as with initial.flow = \"steady\" the boundaries decide the "
+                            "start"});
+}
+
 // Elements across a region.
 
 Warnings of_mesh(const Mesh<2>& mesh, const std::string& more = on_top + on_bottom,

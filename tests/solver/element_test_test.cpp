@@ -169,7 +169,7 @@ TEST(ElementTest, says_what_is_wrong_in_a_table) {
        "strain_zz, strain_xy, stress_xx, stress_yy, stress_zz, stress_xy and fines_left, with "
        "commas between columns in the place of semicolons, and decimal points in numbers"},
       {"t,step,stress_xx,stress_yy,stress_zz\n",
-       "1: step: got a column beside t; expected one of the two"},
+       "1: step: got a column in addition to t; expected one of the two"},
       {"t,t,stress_xx,stress_yy,stress_zz\n",
        "1: t: got a column twice; expected one column of a name"},
   }};
@@ -190,7 +190,7 @@ TEST(ElementTest, says_what_is_wrong_in_a_table) {
             "5: fines_left: got nothing; expected a number\n"
             "6: got 2 values; expected 6, as many as columns");
   EXPECT_EQ(answer("stress_xx,stress_yy,stress_zz,strain_yy\n0,0,0,\n0,-1,0,-0.1\n"),
-            "3: stress_yy: got a value beside that of strain_yy; expected one of the two");
+            "3: stress_yy: got a value in addition to that of strain_yy; expected one of the two");
 }
 
 /// The program, and its output.

@@ -146,6 +146,18 @@ TEST(EulerianTransport, ASmoothProfileIsSecondOrder) {
   EXPECT_LE(errors[2], 1e-3);
 }
 
+TEST(Transport, CountsStepsUpToALimit) {
+  const auto count = [](double allowed) {
+    return step_count(allowed, 0.0, 5.0, {1e3, "the flow has run away"});
+  };
+  EXPECT_EQ(count(2.0), 1.0);
+  EXPECT_EQ(count(0.1), 10.0);
+  EXPECT_EQ(count(1e-3), 990.0);
+  for (const double allowed : {9e-4, 0.0, -0.1, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(static_cast<void>(count(allowed)), NumericalError) << allowed;
+  }
+}
+
 TEST(EulerianTransport, AStepBeyondTheLimitIsWhatTheLimitIsFor) {
   Column s(distorted(), 0.0);
   EXPECT_NEAR(

@@ -57,7 +57,7 @@ TEST(Drives, HaveTheirValues) {
   const double kappa = k * 1e-3 / (1000.0 * 9.81);
   const auto rate = [&](const char* drive) {
     const ExchangeModel m = that_erodes("constant", drive, 1.0);
-    return exchange_rate(m, {n_0, n_0}, flow_of(flux, 0.0), 0.0).eroded;
+    return exchange_rate(m, {n_0, n_0, 1.0}, flow_of(flux, 0.0), 0.0).eroded;
   };
   EXPECT_EQ(rate("time"), 1.0);
   EXPECT_EQ(rate("flux"), flux);
@@ -72,7 +72,7 @@ TEST(Drives, FollowTheGradientOfTheFlow) {
   const double flux = 0.012;
   ExchangeModel m = that_erodes("constant", "gradient", 1.0);
   const auto gradient = [&](const PlaceFlow& flow) {
-    return exchange_rate(m, {n_0, n_0}, flow, 0.0).eroded;
+    return exchange_rate(m, {n_0, n_0, 1.0}, flow, 0.0).eroded;
   };
   const double darcy = gradient(flow_of(flux, 0.1));
   PlaceFlow across = flow_of(flux, 0.1);
@@ -121,9 +121,9 @@ TEST(Residual, StaysWhateverTheLaw) {
   for (const char* law : {"constant", "logarithmic", "first-order"}) {
     ExchangeModel m = that_erodes(law, "time", 1.0);
     m.erosion.residual = {{{0.0, 0.05}}};
-    EXPECT_NEAR(exchange_over(m, {n_0, n_0}, {}, 0.0, 1e4).eroded, 0.15, 1e-12) << law;
+    EXPECT_NEAR(exchange_over(m, {n_0, n_0, 1.0}, {}, 0.0, 1e4).eroded, 0.15, 1e-12) << law;
     // Erosion does not become negative if the residual grows as the flow slows down.
-    EXPECT_EQ(exchange_over(m, {n_0, 0.52}, {}, 0.0, 1e4).eroded, 0.0) << law;
+    EXPECT_EQ(exchange_over(m, {n_0, 0.52, 1.0}, {}, 0.0, 1e4).eroded, 0.0) << law;
   }
 }
 
@@ -134,12 +134,13 @@ TEST(Deposition, CatchesFinesOfAClosedVolume) {
   const auto invariant = [&](double fines) { return fines + w * std::log(fines); };
   for (const double a : {1e-3, 0.1, 1.0, 5.0}) {
     const Exchange x =
-        exchange_over(that_catches(2.0), {n_0, n_0}, flow_of(1e-3, c), 0.0, a / (2.0 * 1e-3));
+        exchange_over(that_catches(2.0), {n_0, n_0, 1.0}, flow_of(1e-3, c), 0.0, a / (2.0 * 1e-3));
     EXPECT_EQ(x.eroded, 0.0);
     const double left = n_0 * c - x.deposited;
     EXPECT_NEAR(invariant(n_0 * c) - invariant(left), a, 1e-9 * (1.0 + w / left)) << a;
   }
-  const Exchange all = exchange_over(that_catches(2.0), {n_0, n_0}, flow_of(1e-3, c), 0.0, 1e9);
+  const Exchange all =
+      exchange_over(that_catches(2.0), {n_0, n_0, 1.0}, flow_of(1e-3, c), 0.0, 1e9);
   EXPECT_NEAR(all.deposited, n_0 * c, 1e-10);
   EXPECT_LE(all.deposited, n_0 * c + 1e-11);
 }
@@ -147,11 +148,11 @@ TEST(Deposition, CatchesFinesOfAClosedVolume) {
 TEST(Deposition, EndsWhereTheFlowIsFastOrRoomIsGone) {
   ExchangeModel m = that_catches(2.0);
   m.deposition.flux_max = 1e-3;
-  EXPECT_EQ(exchange_over(m, {n_0, n_0}, flow_of(1e-3, 0.1), 0.0, 10.0).deposited, 0.0);
-  EXPECT_GT(exchange_over(m, {n_0, n_0}, flow_of(0.9e-3, 0.1), 0.0, 10.0).deposited, 0.0);
+  EXPECT_EQ(exchange_over(m, {n_0, n_0, 1.0}, flow_of(1e-3, 0.1), 0.0, 10.0).deposited, 0.0);
+  EXPECT_GT(exchange_over(m, {n_0, n_0, 1.0}, flow_of(0.9e-3, 0.1), 0.0, 10.0).deposited, 0.0);
   m = that_catches(2.0);
   m.deposition.porosity_min = 0.34;
-  const Exchange x = exchange_over(m, {n_0, n_0}, flow_of(1e-3, 0.3), 0.0, 1e7);
+  const Exchange x = exchange_over(m, {n_0, n_0, 1.0}, flow_of(1e-3, 0.3), 0.0, 1e7);
   EXPECT_LE(x.deposited, 0.01 + 1e-11);
   EXPECT_NEAR(x.deposited, 0.01, 1e-9);
 }
@@ -165,12 +166,12 @@ TEST(Autocatalysis, GrowsAsItsIntegralSays) {
   };
   for (const double s : {0.1, 1.0, 10.0, 30.0}) {
     const ExchangeModel m = that_erodes("autocatalytic", "flux", 8.0);
-    const Exchange x = exchange_over(m, {n_0, n_0}, flow_of(1e-3, c), 0.0, s / 8e-3);
+    const Exchange x = exchange_over(m, {n_0, n_0, 1.0}, flow_of(1e-3, c), 0.0, s / 8e-3);
     const double n = n_0 + x.eroded;
     EXPECT_NEAR(clock(n) - clock(n_0), s, 1e-8 / (n_max - n)) << s;
   }
   const ExchangeModel m = that_erodes("autocatalytic", "flux", 8.0);
-  EXPECT_EQ(exchange_over(m, {n_0, n_0}, flow_of(1e-3, 0.0), 0.0, 1e3).eroded, 0.0);
+  EXPECT_EQ(exchange_over(m, {n_0, n_0, 1.0}, flow_of(1e-3, 0.0), 0.0, 1e3).eroded, 0.0);
 }
 
 /// The last fines are fewer than the steps of the integral resolve: n_e = n_e0 exp(-S c).
@@ -181,7 +182,7 @@ TEST(Autocatalysis, GivesNothingBack) {
     for (double s = 1.0; s < 100.0; s *= 1.3) {
       PlaceFlow flow = flow_of(0.0, c);
       flow.motion = LiquidMotion::flows_on;
-      const Exchange x = exchange_over(m, {n_0, n_max - left}, flow, 0.0, s / c);
+      const Exchange x = exchange_over(m, {n_0, n_max - left, 1.0}, flow, 0.0, s / c);
       EXPECT_GE(x.eroded, 0.0) << left << ' ' << s;
       EXPECT_EQ(x.deposited, 0.0) << left << ' ' << s;
       EXPECT_NEAR(x.eroded, left * (1.0 - std::exp(-s)), 1e-11) << left << ' ' << s;
@@ -196,11 +197,11 @@ TEST(Exchange, OfCleanLiquidIsErosionAlone) {
     for (double rate = 1e-4; rate < 1e4; rate *= 1.7) {
       ExchangeModel m = that_erodes(law, "time", rate);
       m.erosion.residual = {{{0.0, 0.05}}};
-      const double alone = exchange_over(m, {n_0, n_0}, flow_of(1e-5, 0.0), 0.0, 1.0).eroded;
+      const double alone = exchange_over(m, {n_0, n_0, 1.0}, flow_of(1e-5, 0.0), 0.0, 1.0).eroded;
       m.deposition.coefficient = 2.0;
       PlaceFlow flow = flow_of(1e-5, 0.0);
       flow.motion = LiquidMotion::flows_on;
-      const Exchange both = exchange_over(m, {n_0, n_0}, flow, 0.0, 1.0);
+      const Exchange both = exchange_over(m, {n_0, n_0, 1.0}, flow, 0.0, 1.0);
       EXPECT_NEAR(both.eroded, alone, 1e-9) << law << ' ' << rate;
       EXPECT_EQ(both.deposited, 0.0) << law << ' ' << rate;
     }
@@ -215,9 +216,9 @@ TEST(Exchange, InLockedLiquidHasNoValue) {
   m.viscosity = {viscosity_laws()[1], 0.62};
   PlaceFlow flow = flow_of(1e-5, 1.0);
   flow.motion = LiquidMotion::flows_on;
-  EXPECT_FALSE(std::isfinite(exchange_over(m, {n_0, n_0}, flow, 0.0, 1.0).into_liquid()));
+  EXPECT_FALSE(std::isfinite(exchange_over(m, {n_0, n_0, 1.0}, flow, 0.0, 1.0).into_liquid()));
   flow.concentration = 0.61;
-  EXPECT_TRUE(std::isfinite(exchange_over(m, {n_0, n_0}, flow, 0.0, 1.0).into_liquid()));
+  EXPECT_TRUE(std::isfinite(exchange_over(m, {n_0, n_0, 1.0}, flow, 0.0, 1.0).into_liquid()));
 }
 
 /// The porosity at the end of erosion is a sum, whose last digits are round-off.
@@ -225,7 +226,7 @@ TEST(ConstantErosion, EndsWithTheLastDigitsOfPorosity) {
   const ExchangeModel m = that_erodes("constant", "time", 1e-3);
   const double most = m.erosion.porosity_max;
   const auto rate = [&](double left) {
-    return exchange_rate(m, {n_0, most - left}, flow_of(0.0, 0.0), 0.0).eroded;
+    return exchange_rate(m, {n_0, most - left, 1.0}, flow_of(0.0, 0.0), 0.0).eroded;
   };
   EXPECT_GT(rate(1e-12), 0.0);
   for (const double left : {2e-16, 1e-16, 0.0, -1e-16}) EXPECT_EQ(rate(left), 0.0) << left;
@@ -234,9 +235,9 @@ TEST(ConstantErosion, EndsWithTheLastDigitsOfPorosity) {
 TEST(CriticalConcentration, StopsErosion) {
   ExchangeModel m = that_erodes("constant", "time", 1e-3);
   m.erosion.critical_concentration = 0.1;
-  EXPECT_NEAR(exchange_rate(m, {n_0, n_0}, flow_of(0.0, 0.1), 0.0).eroded, 0.0, 1e-18);
-  EXPECT_NEAR(exchange_rate(m, {n_0, n_0}, flow_of(0.0, 0.05), 0.0).eroded, 5e-4, 1e-18);
-  const Exchange x = exchange_over(m, {n_0, n_0}, flow_of(0.0, 0.0), 0.0, 1e5);
+  EXPECT_NEAR(exchange_rate(m, {n_0, n_0, 1.0}, flow_of(0.0, 0.1), 0.0).eroded, 0.0, 1e-18);
+  EXPECT_NEAR(exchange_rate(m, {n_0, n_0, 1.0}, flow_of(0.0, 0.05), 0.0).eroded, 5e-4, 1e-18);
+  const Exchange x = exchange_over(m, {n_0, n_0, 1.0}, flow_of(0.0, 0.0), 0.0, 1e5);
   EXPECT_NEAR(x.eroded / (n_0 + x.eroded), 0.1, 1e-9);
 }
 
@@ -245,10 +246,10 @@ TEST(Exchange, SlidesAlongWhatCanErode) {
   ExchangeModel m = that_erodes("constant", "time", 1e-3);
   m.deposition.coefficient = 2.0;
   const double c = 0.1;
-  const Exchange x = exchange_over(m, {n_0, n_max}, flow_of(1e-3, c), 0.0, 10.0);
+  const Exchange x = exchange_over(m, {n_0, n_max, 1.0}, flow_of(1e-3, c), 0.0, 10.0);
   EXPECT_NEAR(x.into_liquid(), 0.0, 1e-6);
   // From a little below, all erodible fines are eroded, and nothing more.
-  const Exchange y = exchange_over(m, {n_0, n_max - 1e-3}, flow_of(1e-3, c), 0.0, 10.0);
+  const Exchange y = exchange_over(m, {n_0, n_max - 1e-3, 1.0}, flow_of(1e-3, c), 0.0, 10.0);
   EXPECT_NEAR(y.into_liquid(), 1e-3, 1e-12);
   EXPECT_GT(y.deposited, 1.9e-3);
   EXPECT_NEAR(y.deposited, 2e-3, 1e-4);
@@ -263,14 +264,14 @@ TEST(Exchange, StartsOnBareGrains) {
   const double flux = 1e-2;
   // The last bit of the state must not matter.
   for (const double porosity : {n_max, std::nextafter(n_max, 0.0), std::nextafter(n_max, 1.0)}) {
-    const Exchange x = exchange_over(m, {n_0, porosity}, flow_of(flux, c), 0.0, 10.0);
+    const Exchange x = exchange_over(m, {n_0, porosity, 1.0}, flow_of(flux, c), 0.0, 10.0);
     EXPECT_NEAR(x.into_liquid(), 0.0, 1e-15);
     EXPECT_NEAR(x.deposited, flux * c * 10.0, 1e-15);
     EXPECT_NEAR(x.eroded, x.deposited, 1e-15);
   }
   m.erosion.rate = 1e-4;
   const double duration = 1.0;
-  const Exchange less = exchange_over(m, {n_0, n_max}, flow_of(flux, c), 0.0, duration);
+  const Exchange less = exchange_over(m, {n_0, n_max, 1.0}, flow_of(flux, c), 0.0, duration);
   EXPECT_NEAR(less.eroded, 1e-4 * duration, 1e-12);
   EXPECT_NEAR(less.deposited, flux * c * duration, 0.01 * flux * c * duration);
 }
@@ -281,7 +282,7 @@ TEST(Exchange, WaitsForDepositsWhereLessThanTheResidualIsLeft) {
   m.deposition.coefficient = 1.0;
   m.erosion.residual = {{{0.0, 0.001}}};
   const double porosity = n_max - 1e-4;
-  const Exchange x = exchange_over(m, {n_0, porosity}, flow_of(1e-2, 0.5), 0.0, 10.0);
+  const Exchange x = exchange_over(m, {n_0, porosity, 1.0}, flow_of(1e-2, 0.5), 0.0, 10.0);
   EXPECT_NEAR(x.into_liquid(), -9e-4, 1e-15);
   // As fines are deposited, c falls by less than 1 %; deposits above the residual erode at once.
   EXPECT_NEAR(x.deposited, 1e-2 * 0.5 * 10.0, 1e-4);
@@ -303,14 +304,14 @@ TEST(Exchange, IsTheIntegralOfItsRates) {
   double n = n_0;
   double deposited = 0.0;
   const auto rate = [&](double porosity) {
-    return exchange_rate(m, {n_0, porosity}, flow_of(flux, (porosity - w) / porosity), 0.0);
+    return exchange_rate(m, {n_0, porosity, 1.0}, flow_of(flux, (porosity - w) / porosity), 0.0);
   };
   for (int s = 0; s < steps; ++s) {
     const Exchange middle = rate(n + 0.5 * h * rate(n).into_liquid());
     n += h * middle.into_liquid();
     deposited += h * middle.deposited;
   }
-  const Exchange x = exchange_over(m, {n_0, n_0}, flow_of(flux, 0.02), 0.0, duration);
+  const Exchange x = exchange_over(m, {n_0, n_0, 1.0}, flow_of(flux, 0.02), 0.0, duration);
   EXPECT_NEAR(n_0 + x.into_liquid(), n, 1e-9);
   EXPECT_NEAR(x.deposited, deposited, 1e-9);
   EXPECT_GT(x.deposited, 1e-3);
@@ -323,7 +324,7 @@ TEST(Exchange, StaysWithinItsBounds) {
   for (const double flux : {1e-8, 1e-3, 10.0}) {
     for (const double c : {0.0, 1e-6, 0.2, 0.9}) {
       for (const double duration : {1e-3, 1.0, 1e6}) {
-        const Exchange x = exchange_over(m, {n_0, n_0}, flow_of(flux, c), 0.0, duration);
+        const Exchange x = exchange_over(m, {n_0, n_0, 1.0}, flow_of(flux, c), 0.0, duration);
         const double n = n_0 + x.into_liquid();
         EXPECT_GE(n, 0.3 - 1e-15);
         EXPECT_LE(n, n_max + 1e-15);

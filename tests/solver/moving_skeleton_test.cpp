@@ -386,6 +386,47 @@ TEST(SolidFlux, ClosesToRoundOffWhileASoftColumnSinksThroughElements) {
   EXPECT_NEAR(b.solid_of_points(), solid, 1e-15);
 }
 
+/// A surface that another run has left is that of the same boundary only if it began on the same
+/// faces: a traction acts on the faces of its own scene.
+TEST(BoundaryLoads, TakeTheSurfacesOfTheSameFacesOnly) {
+  const double load = 8.0;
+  const Scene scene = oedometer_scene(model::elastic_soil(1e6, 0.2), load);
+  const Mesh<2> whole = model::column_mesh(4, 4);
+  Mesh<2> part = whole;
+  for (BoundarySet<2>& set : part.boundaries) {
+    if (set.name != "top") continue;
+    std::erase_if(set.faces, [&](const auto& face) { return whole.nodes[face[0]][0] > 0.45; });
+    ASSERT_EQ(set.faces.size(), 2U);
+  }
+  const Body on_whole(whole, scene);
+  const Body on_part(part, scene);
+  const auto start = [](const Body& b) {
+    return BoundaryLoads<2>(b.grid, b.soils,
+                            PointsByElement(b.grid.mesh.element_count(), b.soils.points().element));
+  };
+  const auto force = [](const Body& b, const BoundaryLoads<2>& loads) {
+    const PointsByElement sorted(b.grid.mesh.element_count(), b.soils.points().element);
+    NodalLoads<2> on_nodes(b.grid);
+    loads.add(sorted, b.grid.volume, 1.0, on_nodes);
+    double sum = 0.0;
+    for (const Vector<2>& f : on_nodes.forces()) sum += f[1];
+    return sum;
+  };
+  BoundaryLoads<2> of_part = start(on_part);
+  EXPECT_NEAR(force(on_part, of_part), -0.5 * load, 1e-12);
+  of_part.place(start(on_whole).surfaces());
+  EXPECT_NEAR(force(on_part, of_part), -0.5 * load, 1e-12);
+  BoundaryLoads<2> of_whole = start(on_whole);
+  of_whole.place(start(on_part).surfaces());
+  EXPECT_NEAR(force(on_whole, of_whole), -load, 1e-12);
+  // Surfaces of the same faces are taken where they are.
+  BoundaryLoads<2> moved = start(on_whole);
+  const PointsByElement sorted(whole.element_count(), on_whole.soils.points().element);
+  moved.move(sorted, NodeVectors<2>(whole.nodes.size(), Vector<2>(0.0, -0.1)));
+  of_whole.place(moved.surfaces());
+  EXPECT_NEAR(of_whole.surfaces().at("top").places().front()[1], 0.9, 1e-12);
+}
+
 // ---------------------------------------------------------------------- points that cross elements
 
 TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {

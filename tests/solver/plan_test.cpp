@@ -97,7 +97,7 @@ TEST(Plan, ErgunsDragNeedsFacesThatStayAsTheyAre) {
     return "none";
   };
   const auto beside = [](const std::string& key) {
-    return "model.toml: soil.specimen.drag: got \"ergun\" beside " + key +
+    return "model.toml: soil.specimen.drag: got \"ergun\" with " + key +
            "; expected \"darcy\": where faces open, close or fall dry, drag is linear";
   };
   EXPECT_EQ(refusal(), beside("boundary[1].seepage_face"));

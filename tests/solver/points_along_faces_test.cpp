@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <numeric>
@@ -281,6 +282,23 @@ TEST(PointsAlongFaces, FinesStayInSoilThatErodes) {
     if (points.place(p).position(column.input.mesh)[1] <= 1.0) continue;
     EXPECT_EQ(points.fines_mass[p], 0.0);
   }
+}
+
+/// Points of equal volume may leave out an element that holds less than one: what enters there
+/// comes in points of the mean volume.
+TEST(PointsAlongFaces, EnterThroughElementsWithoutAPoint) {
+  Case<2> c = model::make_double_point_case(model::column_mesh(2, 2),
+                                            model::double_point_scene(flux, rate));
+  const Grid<2> grid(c.mesh);
+  MaterialPoints<2>& points = c.liquid_points;
+  const double mean =
+      std::accumulate(points.volume.begin(), points.volume.end(), 0.0) / points.size();
+  int face = 0;
+  while (!grid.is_outer(face)) ++face;
+  std::ranges::replace(points.element, grid.face_left[face], grid.face_left[face] + 1);
+  const InjectionSettings settings = injection_settings(c, grid);
+  EXPECT_EQ(settings.points_per_element[face], 1);
+  EXPECT_NEAR(settings.point_volume[face], mean, 1e-13 * mean);
 }
 
 TEST(PointsAlongFaces, ThreadsChangeNothing) {

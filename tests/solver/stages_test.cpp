@@ -138,6 +138,32 @@ TEST_F(Stage, TheFirstMayEndBetweenOutputs) {
   EXPECT_EQ(test::read_file(case_copy), test::read_file(case_until(mode(), 2.05)));
 }
 
+/// Three times 0.1 is more than 0.3 in the last digit, and is still one output.
+TEST_F(Stage, AnEndThatIsAnOutputTimeIsOneOutput) {
+  const std::string folder = place_.path("staged");
+  solve(case_until(mode(), 0.3), folder);
+  solve(case_until(mode(), 0.6), folder, {"--resume"});
+  const std::vector<double> times = ResultsReader(folder).history().column("t");
+  ASSERT_EQ(times.size(), 7U);
+  for (int k = 0; k < 7; ++k) EXPECT_NEAR(times[k], 0.1 * k, 1e-12);
+}
+
+/// Inertia that a longer run does not notice is skipped: the user is told if the first stage had
+/// it.
+TEST_F(Stage, ALaterEndThatTurnsOffInertiaIsSaid) {
+  const std::string folder = place_.path("staged");
+  solve(case_until(mode(), 1.0), folder);
+  const Outcome as_before = place_.solve(case_until(mode(), 1.1), folder, {"--resume"});
+  EXPECT_EQ(as_before.code, 0);
+  EXPECT_EQ(as_before.error.find("time.inertia"), std::string::npos) << as_before.error;
+  const Outcome longer = place_.solve(case_until(mode(), 20.0), folder, {"--resume"});
+  EXPECT_EQ(longer.code, 0);
+  EXPECT_NE(longer.error.find("time.inertia is false with this time.end, and was true with "
+                              "time.end = 1.1 s"),
+            std::string::npos)
+      << longer.error;
+}
+
 TEST_F(Stage, TheSecondCanBeStoppedAndGoesOn) {
   const test::Mode given = with_given_step(1);
   const std::string whole = place_.path("whole");

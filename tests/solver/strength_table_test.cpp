@@ -674,7 +674,7 @@ TEST(StrengthTable, RefusesStatesAndTimesThatDoNotFit) {
             "--time: got \"last\"; expected all, or a time in s, or with a unit behind the number, "
             "\"s\", \"min\", \"h\", \"d\" or \"a\", as 2.5d\n");
   EXPECT_EQ(w.refusal(mode + "--state moving.results --time all --mechanism m.hdf"),
-            "--mechanism: got a file beside --time all; expected one time\n");
+            "--mechanism: got a file with --time all; expected one time\n");
   EXPECT_EQ(w.refusal(mode + "--state nowhere", 4), "nowhere: no such results folder\n");
 }
 

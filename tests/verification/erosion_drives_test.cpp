@@ -185,5 +185,23 @@ TEST(Suspension, PushesCleanWaterOut) {
   std::cout << run.steps() << " steps\n";
 }
 
+/// Where the conductivity varies, the gradient at a place follows from the conductivity there,
+/// however the fines are transported.
+TEST(RandomField, ErodesAlikeWithEitherTransport) {
+  Scene scene = driven_scene("first-order", "gradient", 1e-3, 20.0);
+  scene.soils[0].field = {.variation = 1.0, .along = 0.4, .across = 0.4, .seed = 3};
+  set_head(scene, 0.6);
+  const auto eroded = [&](TransportScheme transport) {
+    scene.time.transport = transport;
+    model::ModelRun run(model::make_case(model::column_mesh(8, 8), scene));
+    const double result = run.run({scene.time.end}).states.back().ledger.eroded;
+    EXPECT_LE(run.worst_residual(), 1e-12);
+    return result;
+  };
+  const double by_steps = eroded(TransportScheme::explicit_steps);
+  EXPECT_GT(by_steps, 0.1);
+  EXPECT_NEAR(eroded(TransportScheme::implicit_sweeps), by_steps, 1e-6 * by_steps);
+}
+
 }  // namespace erosion_drives_test
 }  // namespace suffuse
