@@ -130,10 +130,11 @@ double largest_magnitude(const Table& table, const std::string& name) {
 /// Adds the values at the end of a run.
 void add_ends(Row& row, const Table& ledger, const Table& history) {
   const double lost = ledger.column("fines_out").back() - ledger.column("fines_in").back();
-  const double erodible = ledger.column("erodible").front();
+  // A stage may start with fines in the liquid.
+  const double fines = ledger.column("erodible").front() + ledger.column("fines").front();
   row["eroded"] = number_text(ledger.column("eroded").back());
   row["fines_lost"] = number_text(lost);
-  if (erodible > 0.0) row["fines_lost_percent"] = number_text(100.0 * lost / erodible);
+  if (fines > 0.0) row["fines_lost_percent"] = number_text(100.0 * lost / fines);
   row["water_out"] = number_text(ledger.column("water_out").back());
   row["flux_out"] = number_text(history.column("flux_out").back());
   row["porosity_mean"] = number_text(history.column("porosity_mean").back());

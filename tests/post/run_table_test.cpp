@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -82,6 +83,25 @@ TEST(RunTable, SinglePointRun) {
   EXPECT_EQ(rows[0]["water_out"], "480");
   EXPECT_NEAR(std::stod(rows[0]["porosity_mean"]), 0.4, 1e-12);
   EXPECT_EQ(std::stod(rows[1]["error_fines_relative"]), 1.0);
+}
+
+// A stage starts with some of its fines in the liquid: the loss is a share of all of them.
+TEST(RunTable, AStageCountsTheFinesInItsLiquid) {
+  const ScratchFolder scratch;
+  testing::write_synthetic_results(scratch / "a.results", "a", 1e-3);
+  const std::string ledger = scratch / "a.results/ledger.csv";
+  std::string text = testing::file_text(ledger);
+  const std::size_t first = text.find('\n') + 1;
+  std::istringstream cells(text.substr(first, text.find('\n', first) - first));
+  std::string row;
+  std::string cell;
+  for (int k = 0; std::getline(cells, cell, ','); ++k) {
+    row += (k == 0 ? "" : ",") + (k == 2 ? "4" : k == 4 ? "266" : cell);  // erodible, fines
+  }
+  text.replace(first, text.find('\n', first) - first, row);
+  std::ofstream(ledger) << text;
+  auto rows = parsed(run_table({ResultsReader(scratch / "a.results")}));
+  EXPECT_NEAR(std::stod(rows[0]["fines_lost_percent"]), 100.0, 1e-9);
 }
 
 // A law that depends on the flow has no exact values without the flow.
