@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "case/plausibility_base.hpp"
 #include "common/short_number.hpp"
@@ -35,6 +36,7 @@ class Flow : private PlausibilityBase<Dim> {
       check_head("initial.water_level", *scene_.water_level);
     }
     for (const BoundaryCondition& boundary : scene_.boundaries) check_boundary(boundary);
+    check_low_heads();
     return std::move(warnings_);
   }
 
@@ -98,7 +100,7 @@ class Flow : private PlausibilityBase<Dim> {
   }
 
   /// Without gravity a head is compared with 0, and with the largest length of the model instead of
-  /// its height. A head far below the model is valid: the model is dry.
+  /// its height. One head far below the model is valid: `check_low_heads`.
   void check_head(const std::string& key, double head) {
     const bool falls = has_gravity(scene_.gravity);
     const auto [low, high] = falls ? this->heights() : std::pair(0.0, 0.0);
@@ -110,6 +112,25 @@ class Flow : private PlausibilityBase<Dim> {
               : "the model is " + short_number(size) + " m long";
     warn(key, short_number(head) + " m, and " + model + "; up to " + short_number(usual) +
                   " m above it are usual");
+  }
+
+  /// Heads that all lie far below the model leave it dry: their datum is probably another one.
+  void check_low_heads() {
+    if (!has_gravity(scene_.gravity)) return;
+    const BoundaryCondition* highest = nullptr;
+    double head = -std::numeric_limits<double>::infinity();
+    for (const BoundaryCondition& b : scene_.boundaries) {
+      if (!b.head || b.head->range(0.0, scene_.time.end).second <= head) continue;
+      highest = &b;
+      head = b.head->range(0.0, scene_.time.end).second;
+    }
+    const auto [low, high] = this->heights();
+    const double usual = std::max(farthest_head * (high - low), least_far_head);
+    if (!highest || low - head <= usual) return;
+    warn(joined(highest->key, given(joined(highest->key, "file")) ? "file" : "head"),
+         short_number(head) + " m, the highest head, and the model lies between " +
+             short_number(low) + " and " + short_number(high) +
+             " m: no water reaches it. Are heads and heights of one datum?");
   }
 
   /// Water that stands on a slope and is higher than the model would flow over it, to where water

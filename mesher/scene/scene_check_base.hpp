@@ -17,6 +17,10 @@ class SceneCheckBase {
 
  protected:
   [[nodiscard]] bool given(const std::string& key) const { return inquiry_.given(key); }
+  /// Whether a key was given in its own table.
+  [[nodiscard]] bool own(const std::string& key) const {
+    return given(key) && !inquiry_.inherited(key);
+  }
   [[nodiscard]] bool refused(const std::string& key) const { return inquiry_.refused(key); }
   void report(const std::string& key, const std::string& found, const std::string& expected,
               const std::vector<std::string>& others = {}) const {

@@ -102,9 +102,6 @@ class Checks : private SceneCheckBase {
            "false, or another drive", {joined(table, "drive")});
   }
 
-  /// Whether the soil inherits keys: inherited keys, unlike given ones, may be unused by its law.
-  [[nodiscard]] bool inherits(const Soil& soil) const { return given(table_of(soil) + ".like"); }
-
   void check_length(const Soil& soil, const std::string& table) const {
     const std::string key = joined(table, "length");
     if (!(soil.erosion.length > 0.0) || refused(key)) return;
@@ -112,7 +109,7 @@ class Checks : private SceneCheckBase {
       report(key, shown_number(soil.erosion.length) + " m where soil moves",
              "rigid soil, or no such key", {});
     }
-    if (depends_on_flux(soil.erosion_model()) || inherits(soil)) return;
+    if (depends_on_flux(soil.erosion_model()) || !own(key)) return;
     report(key,
            shown_number(soil.erosion.length) + " m for erosion that does not depend on the flow",
            "a drive other than \"time\", or no such key", {joined(table, "drive")});
@@ -121,17 +118,17 @@ class Checks : private SceneCheckBase {
   void check_drive(const Soil& soil, const std::string& table) const {
     const std::string drive_key = joined(table, "drive");
     const std::string law_key = joined(table, "law");
-    if (refused(drive_key) || refused(law_key) || inherits(soil)) return;
-    const std::string_view own = soil.erosion.law->drive;
-    if (given(drive_key) && !own.empty() && soil.erosion.drive->word != own) {
+    if (refused(drive_key) || refused(law_key)) return;
+    const std::string_view implied = soil.erosion.law->drive;
+    if (own(drive_key) && !implied.empty() && soil.erosion.drive->word != implied) {
       report(drive_key, shown_value(std::string(soil.erosion.drive->word)),
-             shown_value(std::string(own)) +
+             shown_value(std::string(implied)) +
                  ", which law = " + shown_value(std::string(soil.erosion.law->word)) +
                  " stands for, or law = \"first-order\"",
              {law_key});
     }
     const std::string threshold_key = joined(table, "threshold");
-    if (!given(threshold_key) || soil.erosion_model().drive->depends_on_flow()) return;
+    if (!own(threshold_key) || soil.erosion_model().drive->depends_on_flow()) return;
     std::vector<std::string> drives;
     for (const DriveLaw* drive : drive_laws()) {
       if (drive->depends_on_flow()) drives.push_back(shown_value(std::string(drive->word)));
@@ -173,7 +170,7 @@ class Checks : private SceneCheckBase {
                 "as conductivity_law is " + shown_value(std::string(soil.conductivity_law->word)),
                 law_key);
       }
-      if (asks || !given(key) || inherits(soil)) continue;
+      if (asks || !own(key)) continue;
       for (std::string& law : laws) law = shown_value(law);
       report(key, "a key of another law", "conductivity_law = " + listed(laws) + ", or no such key",
              {law_key});

@@ -22,6 +22,8 @@ struct Contradiction {
 struct SceneInquiry {
   /// Whether a key or table was given, right or wrong.
   std::function<bool(const std::string& key)> given;
+  /// Whether a key that was given is another soil's (`like`): such a key may be unused.
+  std::function<bool(const std::string& key)> inherited;
   /// Whether a key has a value that is not allowed.
   std::function<bool(const std::string& key)> refused;
   std::function<void(const Contradiction&)> report;

@@ -59,6 +59,7 @@ class SceneReader {
     complete_scene(scene_, path_, [this](const auto& key) { return places_.contains(key); });
     check_scene(scene_,
                 {.given = [this](const std::string& key) { return places_.contains(key); },
+                 .inherited = [this](const std::string& key) { return places_.at(key).inherited; },
                  .refused = [this](const std::string& key) { return refused_.contains(key); },
                  .report = [this](const Contradiction& found) { report(found); }});
     throw_problems();
@@ -317,7 +318,7 @@ class SceneReader {
       if (child.name == like) continue;
       SceneNode* own = to.find(child.name);
       if (!own) {
-        to.children.push_back(child);
+        to.children.push_back(inherited(child));
       } else if (own->form == Form::table && child.form == Form::table) {
         add_missing(child, *own);
       }

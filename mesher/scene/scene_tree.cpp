@@ -327,6 +327,13 @@ const SceneNode* SceneNode::find(const std::string& child) const {
   return found == children.end() ? nullptr : &*found;
 }
 
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the scene's tables
+SceneNode inherited(SceneNode node) {
+  node.place.inherited = true;
+  for (SceneNode& child : node.children) child = inherited(std::move(child));
+  return node;
+}
+
 std::string KeyStep::shown() const {
   if (index) return '[' + std::to_string(*index) + ']';
   return shown_name(name);

@@ -17,6 +17,8 @@ struct Place {
   std::size_t source = 0;  ///< 0 for the file, then one for each `--set`
   std::size_t line = 0;
   std::string text;  ///< `FILE:LINE` or `--set KEY=VALUE`
+  /// Whether the value is that of another soil (`like`); the place is there.
+  bool inherited = false;
 
   [[nodiscard]] bool operator<(const Place& other) const {
     return source != other.source ? source < other.source : line < other.line;
@@ -57,6 +59,9 @@ struct Override {
   std::vector<KeyStep> key;
   SceneNode node;
 };
+
+/// A node that a soil has from another one, with all below it.
+SceneNode inherited(SceneNode node);
 
 /// Throws InputError when the text is not TOML.
 SceneNode read_toml(const std::string& text, const std::string& path);

@@ -34,7 +34,7 @@ class SeepageChecks : private SceneCheckBase {
   void check_soil(const Soil& soil, const std::string& table) const {
     check_retention(soil, table + ".retention");
     check_field(soil, table);
-    if (given(table + ".bedding") && !given(table + ".like") && given(table + ".conductivity") &&
+    if (own(table + ".bedding") && given(table + ".conductivity") &&
         !refused(table + ".conductivity") && std::isnan(soil.conductivity_across)) {
       report(table + ".bedding", "an angle of bedding and one conductivity",
              "conductivity = [along, across], or no such key", {table + ".conductivity"});
@@ -76,7 +76,6 @@ class SeepageChecks : private SceneCheckBase {
     }
     if (!given(table + ".model") || refused(table + ".model")) return;
     const RetentionLaw* law = soil.retention.law;
-    const bool inherited = given(table_of(soil) + ".like");
     for (const RetentionParameter& parameter : retention_parameters()) {
       const std::string pattern = "soil.*.retention." + std::string(parameter.key);
       const std::string key = joined(table, std::string(parameter.key));
@@ -84,7 +83,7 @@ class SeepageChecks : private SceneCheckBase {
       if (law && std::ranges::find(laws, law->word) != laws.end()) {
         require(key, pattern, "for model = " + shown_value(std::string(law->word)),
                 table + ".model");
-      } else if (given(key) && !inherited) {
+      } else if (own(key)) {
         for (std::string& word : laws) word = shown_value(word);
         report(key, "a key of another model", "model = " + listed(laws) + ", or no such key",
                {table + ".model"});

@@ -33,7 +33,6 @@ class SkeletonChecks : private SceneCheckBase {
     }
     if (!given(law_key) || refused(law_key)) return;
     const SkeletonLaw* law = soil.skeleton.law;
-    const bool inherited = given(table_of(soil) + ".like");
     for (const SkeletonParameter& parameter : skeleton_parameters()) {
       const std::string key = joined(table, std::string(parameter.key));
       std::vector<std::string> laws = laws_with_skeleton_parameter(parameter.key);
@@ -41,7 +40,7 @@ class SkeletonChecks : private SceneCheckBase {
       if (asks && parameter.required) {
         require(key, "soil.*.skeleton." + std::string(parameter.key),
                 "for law = " + shown_value(std::string(law->word)), law_key);
-      } else if (!asks && given(key) && !inherited) {
+      } else if (!asks && own(key)) {
         for (std::string& word : laws) word = shown_value(word);
         report(key, "a key of another law", "law = " + listed(laws) + ", or no such key",
                {law_key});

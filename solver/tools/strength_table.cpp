@@ -26,6 +26,9 @@ namespace {
 /// Suction in soil without a retention law above which there is a warning, Pa.
 constexpr double notable_suction = 1e3;
 
+/// Difference of heads, over 1 m plus the head, from which on they differ.
+constexpr double noticed_difference = 1e-3;
+
 /// A body of fewer elements fails too late: its slip surface follows their sides.
 constexpr std::size_t few_elements = 40;
 
@@ -127,10 +130,28 @@ std::vector<std::size_t> chosen_snapshots(const ResultsReader& results, const st
   return chosen;
 }
 
+/// Warns of boundaries whose head in the case, which loads the soil, is not that of the run at a
+/// time, s, which decides the pore pressures. Levels of reservoirs are results.
+void warn_of_other_heads(const Scene& scene, const Scene& of_run, double time) {
+  for (const BoundaryCondition& b : scene.boundaries) {
+    const auto there = std::ranges::find(of_run.boundaries, b.on, &BoundaryCondition::on);
+    if (there == of_run.boundaries.end() || !b.head || !there->head) continue;
+    if (b.is_reservoir() || there->is_reservoir()) continue;
+    const double head = b.head->value(time);
+    const double head_there = there->head->value(time);
+    if (std::abs(head - head_there) <= noticed_difference * (1.0 + std::abs(head))) continue;
+    std::fprintf(stderr,
+                 "suffuse-solver: warning: t = %s s: the water outside of boundary %s stands at %s "
+                 "m in the case, and at %s m in the run that the pore pressures are from: the "
+                 "factor is of soil with two levels at once\n",
+                 shown_number(time).c_str(), shown_value(b.on).c_str(), shown_number(head).c_str(),
+                 shown_number(head_there).c_str());
+  }
+}
+
 /// Checks that the states have the same points, and that porosities mean the same shares of fines.
 template <int Dim>
-void refuse_other_soil(const Case<Dim>& c, const ResultsReader& results) {
-  const Case<Dim> other = read_case<Dim>(layout::in_folder(results.folder(), layout::case_copy));
+void refuse_other_soil(const Case<Dim>& c, const ResultsReader& results, const Case<Dim>& other) {
   if (!have_same_points(c, other)) {
     refuse_option("--state", shown_value(results.folder()) + ", whose mesh or solid points differ",
                   "a run on those of " + c.document.path +
@@ -169,6 +190,16 @@ void refuse_failing_soil(const Case<Dim>& c, const FailingSoil& failing) {
                  "suffuse-solver: warning: soil %s keeps its strength in all trials: its law, %s, "
                  "has none to divide\n",
                  shown_value(soil.region).c_str(), std::string(soil.skeleton.law->word).c_str());
+  }
+  const auto warn_of_cut = [](const char* kind, const std::string& name) {
+    std::fprintf(stderr,
+                 "suffuse-solver: warning: the %s %s stands still in all trials: soil slides along "
+                 "it, and no slip surface crosses it\n",
+                 kind, shown_value(name).c_str());
+  };
+  for (const Wall& wall : c.document.scene.walls) warn_of_cut("wall", wall.on);
+  for (const BoundaryCondition& b : c.document.scene.boundaries) {
+    if (b.is_well()) warn_of_cut("well", b.on);
   }
   if (failing.depth > 0.0 && c.document.scene.gravity == std::array<double, 3>{}) {
     refuse_option("--deeper", shown_number(failing.depth), "a scene with gravity");
@@ -400,10 +431,12 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
     table.add(start_snapshot(c, options.threads), "at the start");
   } else {
     const ResultsReader results(options.state);
-    refuse_other_soil(c, results);
+    const Case<Dim> of_run = read_case<Dim>(layout::in_folder(options.state, layout::case_copy));
+    refuse_other_soil(c, results, of_run);
     std::string last;  // time with a factor of at least 1, s
     for (const std::size_t index : chosen_snapshots(results, options.time)) {
       const std::string time = shown_number(results.times()[index]);
+      warn_of_other_heads(c.document.scene, of_run.document.scene, results.times()[index]);
       const std::optional<double> factor =
           table.add(read_snapshot<Dim>(results, index), options.state + " at t = " + time + " s");
       if (!factor) continue;

@@ -803,5 +803,44 @@ TEST(StrengthTable, WarnsOfSuctionInSoilThatStaysFull) {
       << w.errors();
 }
 
+/// A case with another level than the run has loads of one water and pore pressures of another.
+TEST(StrengthTable, WarnsOfALevelThatIsNotThatOfTheRun) {
+  const Workshop w;
+  w.folder().write("slope.geo", slope_geometry);
+  Slope slope{.mesh = 4.0, .cohesion = 5e4, .water_level = 10.0};
+  slope.more = "[[boundary]]\non = \"slope\"\nhead = [[0.0, 10.0], [5.0, 8.0]]\n";
+  w.mesh("drawn", slope_scene(slope));
+  w.solve("drawn");
+  slope.more = "[[boundary]]\non = \"slope\"\nhead = 10.0\n";
+  w.mesh("full", slope_scene(slope));
+  w.table("drawn", "--quiet --state drawn.results");
+  EXPECT_EQ(w.errors(), "");
+  w.table("full", "--quiet --state drawn.results --time 0");
+  EXPECT_EQ(w.errors(), "");
+  w.table("full", "--quiet --state drawn.results");
+  EXPECT_EQ(w.errors(),
+            "suffuse-solver: warning: t = 10 s: the water outside of boundary \"slope\" stands at "
+            "10 m in the case, and at 8 m in the run that the pore pressures are from: the factor "
+            "is of soil with two levels at once\n");
+}
+
+TEST(StrengthTable, WarnsOfAWallThatNoSlipSurfaceCrosses) {
+  const Workshop w;
+  w.folder().write("slope.geo", std::string(slope_geometry) + R"(
+Point(5) = {6, 2, 0};
+Point(6) = {6, 8, 0};
+Line(5) = {5, 6};
+Curve{5} In Surface{1};
+Physical Curve("core") = {5};
+)");
+  Slope slope{.mesh = 4.0, .cohesion = 5e4};
+  slope.more = "[[wall]]\non = \"core\"\n";
+  w.mesh("walled", slope_scene(slope));
+  w.table("walled", "--quiet");
+  EXPECT_EQ(w.errors(),
+            "suffuse-solver: warning: the wall \"core\" stands still in all trials: soil slides "
+            "along it, and no slip surface crosses it\n");
+}
+
 }  // namespace strength_table_test
 }  // namespace suffuse
