@@ -813,12 +813,13 @@ TEST(StrengthTable, WarnsOfALevelThatIsNotThatOfTheRun) {
   w.solve("drawn");
   slope.more = "[[boundary]]\non = \"slope\"\nhead = 10.0\n";
   w.mesh("full", slope_scene(slope));
-  w.table("drawn", "--quiet --state drawn.results");
-  EXPECT_EQ(w.errors(), "");
-  w.table("full", "--quiet --state drawn.results --time 0");
-  EXPECT_EQ(w.errors(), "");
-  w.table("full", "--quiet --state drawn.results");
-  EXPECT_EQ(w.errors(),
+  const auto warnings = [&](const std::string& name, const std::string& options) {
+    EXPECT_NE(w.table(name, options), "");
+    return w.errors();
+  };
+  EXPECT_EQ(warnings("drawn", "--quiet --state drawn.results"), "");
+  EXPECT_EQ(warnings("full", "--quiet --state drawn.results --time 0"), "");
+  EXPECT_EQ(warnings("full", "--quiet --state drawn.results"),
             "suffuse-solver: warning: t = 10 s: the water outside of boundary \"slope\" stands at "
             "10 m in the case, and at 8 m in the run that the pore pressures are from: the factor "
             "is of soil with two levels at once\n");
@@ -836,7 +837,7 @@ Physical Curve("core") = {5};
   Slope slope{.mesh = 4.0, .cohesion = 5e4};
   slope.more = "[[wall]]\non = \"core\"\n";
   w.mesh("walled", slope_scene(slope));
-  w.table("walled", "--quiet");
+  EXPECT_NE(w.table("walled", "--quiet"), "");
   EXPECT_EQ(w.errors(),
             "suffuse-solver: warning: the wall \"core\" stands still in all trials: soil slides "
             "along it, and no slip surface crosses it\n");
