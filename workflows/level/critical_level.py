@@ -111,7 +111,7 @@ def replay(coarse, known, tolerance, slopes=None):
 
 
 def table_of(study, levels, changes):
-    return [[study.key, *changes], *([study.cell(level), *changes.values()] for level in levels)]
+    return [[*study.keys, *changes], *([*study.cells(level), *changes.values()] for level in levels)]
 
 
 def run_changes(study):
@@ -124,9 +124,9 @@ def known_of(study, folder):
     """Level -> row of the sweep, of the runs that have ended."""
     changes = run_changes(study)
     ended = [row for row in rows_of_sweep(folder) if row["status"] != "unfinished" and is_assessed(folder / "runs", row["run"])
-             and study.key in row and changes.items() <= row.items()]
-    known = {study.level_of(row[study.key]): row for row in ended}
-    return {level: row for level, row in known.items() if row[study.key] == study.cell(level)}
+             and changes.items() <= row.items()]
+    known = {study.level_of(row): row for row in ended}
+    return {level: row for level, row in known.items() if level is not None}
 
 
 def prepare(study, folder):
@@ -251,11 +251,11 @@ def conclude(study, folder):
         if made and all(row["status"] == "refused" for row in made):
             raise InputError([f"no run can be made: {made[0]['message']}"])
     known = outcomes(study, folder, rows_known, slopes)
-    for level, row in [(study.level_of(row[study.key]), row) for row in wanted] + list(rows_known.items()):
+    for level, row in [(study.level_of(row), row) for row in wanted] + list(rows_known.items()):
         row["slope"] = (slopes or {}).get(level, {}).get("run")
     mechanisms = in_order({name for found in known.values() for name in found})
-    silent = [row for row in wanted if not known.get(study.level_of(row[study.key]))]
-    for level in [study.level_of(row[study.key]) for row in read_rows(folder / "slope.csv")]:
+    silent = [row for row in wanted if not known.get(study.level_of(row))]
+    for level in [study.level_of(row) for row in read_rows(folder / "slope.csv")]:
         end = slopes.get(level, {"status": "unfinished", "message": ""})
         silent += [end | {"run": f"slope at {metres(level)}"}] * (end["status"] in ("unfinished", "refused"))
     if not mechanisms:
@@ -274,7 +274,7 @@ def conclude(study, folder):
     lines += [f"- {' and '.join(absent)}: no level has a factor."] if absent else []
     lines += [f"- {text}." for text in not_looked_at(folder, rows_known.values(), mechanisms)]
     lines += ["", *beside] if (beside := said_beside(study, folder, rows_known.values(), mechanisms, "Not part of the search")) else []
-    return report(folder, lines, wanted, silent)
+    return report(study, folder, lines, wanted, silent)
 
 
 if __name__ == "__main__":

@@ -52,7 +52,7 @@ def draws_of(study):
     """Keys, and a list of their values for each draw."""
     path = os.environ["SWEEP"]
     keys, draws = read_runs(path)
-    taken = [key for key in keys if key == study.key or key in study.changes() or study.key.startswith(f"{key}.")]
+    taken = [key for key in keys if key in study.keys or key in study.changes() or any(own.startswith(f"{key}.") for own in study.keys)]
     if taken:
         raise wrong(path, taken[0], "a key that this study sets", "other keys: the level is that of LEVELS, others are in SET")
     return keys, draws
@@ -67,8 +67,8 @@ def rows_of(study):
     if len(draws) * len(levels) > MOST_RUNS:
         raise wrong("LEVELS", "", f"{len(levels)} levels of {len(draws)} draws", f"at most {MOST_RUNS} runs")
     changes = study.changes()
-    table = [[study.key, *changes, *keys]]
-    table += [[study.cell(level), *changes.values(), *draw] for draw in draws for level in levels]
+    table = [[*study.keys, *changes, *keys]]
+    table += [[*study.cells(level), *changes.values(), *draw] for draw in draws for level in levels]
     return [(number + 1, level) for number in range(len(draws)) for level in levels], table
 
 
@@ -159,7 +159,7 @@ def conclude(study, folder):
     if SLOPE not in mechanisms:
         lines.append("The slope was not looked at.")
     lines += said_beside(study, folder, rows, mechanisms, "Not counted")
-    return report(folder, lines, rows, silent)
+    return report(study, folder, lines, rows, silent)
 
 
 if __name__ == "__main__":

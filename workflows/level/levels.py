@@ -1,4 +1,4 @@
-"""What the studies of levels have in common: the boundary whose head is raised, the keys of a run at a level, and what the
+"""What the studies of levels have in common: the boundaries whose head is raised, the keys of a run at a level, and what the
 runs say.
 
 A constant head is replaced by the level. A head that changes in time is stretched from its first value, so that its highest
@@ -73,51 +73,54 @@ def pairs_of_file(path):
         raise InputError([f"{path}: is no table with the columns t (s) and head (m): {error}"]) from None
 
 
-class Study:
-    """The scene, and the changes of it that its runs have in common."""
+def names_in(text, known):
+    """The names in a text, with blanks between them; a name that is known may have blanks, too."""
+    words, names = text.split(), {}
+    while words:
+        count = next((count for count in range(len(words), 0, -1) if " ".join(words[:count]) in known), 1)
+        names[" ".join(words[:count])] = None
+        words = words[count:]
+    return list(names)
 
-    def __init__(self, path):
-        self.path = path
-        self.scene = read_scene(path)
-        self.own = changes_in("SET")
-        self._find_boundary()
-        steady = os.environ.get("STEADY", "").strip()
-        if steady not in ("", "0", "1"):
-            raise wrong("STEADY", "", f"'{steady}'", "1, or nothing")
-        self.is_steady = self.history is None or steady == "1"
-        if self.is_steady:
-            self.history = None
-        self.states = os.environ.get("FACTOR", "").strip() or ("start" if self.is_steady else "all")
-        self.states = {"0": "checks", "1": "last"}.get(self.states, self.states)
-        if self.states not in STATES:
-            raise wrong("FACTOR", "", f"'{self.states}'", "start, last, all, or checks")
 
-    def _find_boundary(self):
-        name = os.environ.get("BOUNDARY", "").strip()
-        entries = self.scene.get("boundary", [])
-        entries = [entry if isinstance(entry, dict) else {} for entry in entries if isinstance(entries, list)]
-        with_head = [str(entry.get("on")) for entry in entries if {"head", "file"} & entry.keys()]
-        known = " or ".join(f'"{on}"' for on in with_head) or "a scene with such a boundary; this one has none"
-        place = next((place for place, entry in enumerate(entries) if entry.get("on") == name), None)
-        if place is None:
-            found = f'"{name}", which is no boundary of {self.path}' if name else "nothing"
-            raise wrong("BOUNDARY", "", found, f"a boundary with a head: {known}")
-        self.entry, self.key = entries[place], f"boundary[{place}].head"
-        if name not in with_head:
-            raise wrong("BOUNDARY", "", f'"{name}", which has no head', f"a boundary with a head: {known}")
-        taken = [key for key in self.own if key == f"boundary[{place}]" or key.startswith(f"boundary[{place}].head")]
-        if taken:
-            raise wrong("SET", taken[0], "the head that this study varies", "other keys")
-        head = self.entry.get("head")
-        if "file" in self.entry:
-            head = pairs_of_file(self.path.parent / str(self.entry["file"]))
+def is_head(key, place):
+    """Whether a key of SET changes the head of a boundary."""
+    return key == f"boundary[{place}]" or key.startswith((f"boundary[{place}].head", f"boundary[{place}].file"))
+
+
+class Other:
+    """A boundary with a head. `key`: the key of the scene with which runs change it. `file`: that of its table, or None. `head`: a
+    number, or what its table is."""
+
+    def __init__(self, path, place, entry):
+        self.name, self.key, self.entry = str(entry.get("on")), f"boundary[{place}].head", entry
+        self.file, self.head = None, entry.get("head")
+        if "file" in entry:
             self.key = f"boundary[{place}]"
-        self.history = None if is_number(head) else head
+            self.file = (path.parent / str(entry["file"])).resolve()
+            self.head = self._table()
+
+    def _table(self):
+        try:
+            return pairs_of_file(self.file)
+        except InputError:  # the mesher says what is wrong
+            return None
+
+
+class Raised(Other):
+    """A boundary that gets the level. `history`: the table of its head, or None."""
+
+    def __init__(self, path, place, entry):
+        super().__init__(path, place, entry)
+        self.history = None if is_number(self.head) else self.head
         if self.history is None:
             return
-        if not (isinstance(head, list) and head and all(isinstance(pair, list) and len(pair) == 2 and
-                                                         all(map(is_number, pair)) for pair in head)):
-            raise wrong(self.path, f"boundary[{place}].head", toml(head), "a number, or pairs [[t, head], ...]")
+        if not (isinstance(self.head, list) and self.head and all(isinstance(pair, list) and len(pair) == 2 and
+                                                                   all(map(is_number, pair)) for pair in self.head)):
+            raise wrong(path, f"boundary[{place}].head", toml(self.head), "a number, or pairs [[t, head], ...]")
+
+    def _table(self):
+        return pairs_of_file(self.file)
 
     def check_levels(self, variable, levels):
         """Throws InputError where the hydrograph cannot be stretched to a level."""
@@ -150,6 +153,91 @@ class Study:
             return rounded(max(pair[1] for pair in head) if isinstance(head, list) else head)
         except (ValueError, KeyError, TypeError, IndexError):
             return None
+
+
+class Study:
+    """The scene, and the changes of it that its runs have in common."""
+
+    def __init__(self, path):
+        self.path = path
+        self.scene = read_scene(path)
+        self.own = changes_in("SET")
+        self.raised = []
+        self._find_boundaries()
+        steady = os.environ.get("STEADY", "").strip()
+        if steady not in ("", "0", "1"):
+            raise wrong("STEADY", "", f"'{steady}'", "1, or nothing")
+        if steady == "1":
+            for raised in self.raised:
+                raised.history = None
+        self._refuse_parts()
+        self.is_steady = self.raised[0].history is None
+        self.keys = [raised.key for raised in self.raised]
+        self.states = os.environ.get("FACTOR", "").strip() or ("start" if self.is_steady else "all")
+        self.states = {"0": "checks", "1": "last"}.get(self.states, self.states)
+        if self.states not in STATES:
+            raise wrong("FACTOR", "", f"'{self.states}'", "start, last, all, or checks")
+
+    def _find_boundaries(self):
+        entries = self.scene.get("boundary", [])
+        entries = [entry if isinstance(entry, dict) else {} for entry in entries if isinstance(entries, list)]
+        with_head = [str(entry.get("on")) for entry in entries if {"head", "file"} & entry.keys()]
+        known = " or ".join(f'"{on}"' for on in with_head) or "a scene with such a boundary; this one has none"
+        names = names_in(os.environ.get("BOUNDARY", ""), [entry.get("on") for entry in entries])
+        for name in names or [""]:
+            place = next((place for place, entry in enumerate(entries) if entry.get("on") == name), None)
+            if place is None:
+                found = f'"{name}", which is no boundary of {self.path}' if name else "nothing"
+                raise wrong("BOUNDARY", "", found, f"a boundary with a head: {known}")
+            if name not in with_head:
+                raise wrong("BOUNDARY", "", f'"{name}", which has no head', f"a boundary with a head: {known}")
+            taken = [key for key in self.own if is_head(key, place)]
+            if taken:
+                raise wrong("SET", taken[0], "the head that this study varies", "other keys")
+            self.raised.append(Raised(self.path, place, entries[place]))
+        others = [(place, entry) for place, entry in enumerate(entries) if str(entry.get("on")) in with_head and str(entry.get("on")) not in names]
+        self.others = [Other(self.path, place, entry) for place, entry in others if not any(is_head(key, place) for key in self.own)]
+
+    def _refuse_parts(self):
+        """Throws InputError where a boundary that is not raised has the table of one that is: the same water would have two levels."""
+        first = self.raised[0]
+        for raised in self.raised[1:]:
+            if (raised.history is None) != (first.history is None):
+                raise wrong("BOUNDARY", "", f'"{first.name}" and "{raised.name}", of which one has a table of heads and one a number',
+                            "boundaries of one kind, or STEADY=1")
+        for raised in self.raised:
+            for other in self.others:
+                if not is_number(raised.head) and (other.file == raised.file is not None or other.head == raised.head):
+                    what = "file" if other.file == raised.file is not None else "table of heads"
+                    raise wrong("BOUNDARY", "", f'"{raised.name}" without "{other.name}", which has the same {what} and would keep its level',
+                                f'BOUNDARY="{self._names(other)}", or another {other.key} in SET')
+
+    def _names(self, *others):
+        return " ".join(boundary.name for boundary in (*self.raised, *others))
+
+    def said_of_equal(self):
+        """Sentences about boundaries whose head is the same number, and which keep it: those of the same water must rise, too."""
+        said = []
+        for other in self.others:
+            equal = next((raised for raised in self.raised if is_number(other.head) and other.head == raised.head), None)
+            if equal:
+                said.append(f'"{other.name}" has the head of "{equal.name}" in the scene, {other.head:g} m, and keeps it at all levels; '
+                            f'if it borders the same water, the result is not safe: give BOUNDARY="{self._names(other)}"')
+        return said
+
+    def check_levels(self, variable, levels):
+        """Throws InputError where a hydrograph cannot be stretched to a level."""
+        for raised in self.raised:
+            raised.check_levels(variable, levels)
+
+    def cells(self, level):
+        """The values of the keys at a level."""
+        return [raised.cell(level) for raised in self.raised]
+
+    def level_of(self, row):
+        """The level of a row of a table, or None if it has none, or several."""
+        level = self.raised[0].level_of(row.get(self.keys[0]))
+        return level if level is not None and self.cells(level) == [row.get(key) for key in self.keys] else None
 
     def changes(self):
         """The changes that all runs have in common."""
@@ -238,10 +326,11 @@ def slopes_of(study, folder):
         return None
     changes, slopes = study.changes(), {}
     for row in read_rows(folder / "slope" / "runs.csv"):
-        if study.key in row and changes.items() <= row.items() and is_assessed(folder / "slope", row["run"]):
+        level = study.level_of(row)
+        if level is not None and changes.items() <= row.items() and is_assessed(folder / "slope", row["run"]):
             status, message = read_status(folder / "slope", row["run"])
             if status != "unfinished":
-                slopes[study.level_of(row[study.key])] = {"run": row["run"], "status": status, "message": message}
+                slopes[level] = {"run": row["run"], "status": status, "message": message}
     return slopes
 
 
@@ -288,11 +377,13 @@ def named_warnings(folder, rows):
     return lines
 
 
-def report(folder, lines, rows, silent):
+def report(study, folder, lines, rows, silent):
     """Writes and prints the report, and what the programs said. Returns the exit code."""
+    warnings = study.said_of_equal()
+    lines = [*(f"Warning: {text}." for text in warnings), *[""] * bool(warnings), *lines]
     write_changed(folder / "report.md", "\n".join(lines) + "\n")
     print("\n".join([*lines, f"Tables and chart are in {folder.resolve()}"]), flush=True)
-    for line in named_warnings(folder, rows) + named_failures(silent):
+    for line in [f"warning: BOUNDARY: {text}" for text in warnings] + named_warnings(folder, rows) + named_failures(silent):
         print(f"{pathlib.Path(sys.argv[0]).name}: {line}", file=sys.stderr)
     return 1 if silent else 0
 

@@ -130,7 +130,7 @@ def study(scene, **variables):
 SCENE = """
 [[boundary]]
 on = "river"
-head = [[0.0, 1.0], [10.0, 3.0], [20.0, 0.5]]
+head = [[0.0, 1.0], [10.0, 3.0], [20.0, 0.0]]
 [[boundary]]
 on = "land"
 head = 0.5
@@ -146,21 +146,25 @@ end = 100.0
 """
 
 
+def level_in(study, cells):
+    return study.level_of(dict(zip(study.keys, cells)))
+
+
 def check_scenes():
     river = study(SCENE, BOUNDARY="river")
-    expect("a hydrograph is stretched from its first head", "[[0.0, 1.0], [10.0, 5.0], [20.0, 0.0]]", river.cell(5.0))
-    expect("its level is read back", 5.0, river.level_of(river.cell(5.0)))
+    expect("a hydrograph is stretched from its first head", "[[0.0, 1.0], [10.0, 5.0], [20.0, -1.0]]", river.cells(5.0)[0])
+    expect("its level is read back", 5.0, level_in(river, river.cells(5.0)))
     expect("it runs as the scene says", ({}, "all"), (river.changes(), river.states))
     steady = study(SCENE, BOUNDARY="river", STEADY="1", SET="time.end=3 a.b={x = [1, 2], y = 'z z'}")
-    expect("or stands for ever", ("5.0", "start"), (steady.cell(5.0), steady.states))
+    expect("or stands for ever", ("5.0", "start"), (steady.cells(5.0)[0], steady.states))
     expect("with keys of one's own", {"initial.flow": '"steady"', "time.end": "3", "output.every": "3", "output.snapshot_every": "3",
                                       "a.b": "{x = [1, 2], y = 'z z'}"}, steady.changes())
     gauge = study(SCENE, BOUNDARY="gauge")
     expect("a table in a file", ("boundary[3]", '{on = "gauge", concentration = 0.0, head = [[0.0, 1.0], [10.0, 5.0], [20.0, 0.0]]}'),
-           (gauge.key, gauge.cell(5.0)))
-    expect("its level is read back", 5.0, gauge.level_of(gauge.cell(5.0)))
+           (gauge.keys[0], gauge.cells(5.0)[0]))
+    expect("its level is read back", 5.0, level_in(gauge, gauge.cells(5.0)))
     land = study(SCENE, BOUNDARY="land")
-    expect("a constant head", ("boundary[1].head", "2.5", "1"), (land.key, land.cell(2.5), land.changes()["time.end"]))
+    expect("a constant head", ("boundary[1].head", "2.5", "1"), (land.keys[0], land.cells(2.5)[0], land.changes()["time.end"]))
     known = 'a boundary with a head: "river" or "land" or "gauge"'
     expect("no such boundary", f'BOUNDARY: got "rivr", which is no boundary of SCENE; expected {known}', study(SCENE, BOUNDARY="rivr"))
     expect("a boundary without a head", f'BOUNDARY: got "face", which has no head; expected {known}', study(SCENE, BOUNDARY="face"))
@@ -170,6 +174,52 @@ def check_scenes():
     expect("no change", "SET: got 'x'; expected KEY=VALUE, with spaces between several", study(SCENE, BOUNDARY="land", SET="x"))
     expect("a level below the first head", "FROM: got 0.5; expected a level above 1 m, the first head of the table",
            answer(river.check_levels, "FROM", [0.5, 2.0]))
+
+
+# A river at two boundaries, and a ditch.
+WATERS = """
+[[boundary]]
+on = "bank"
+head = RIVER
+[[boundary]]
+on = "river bed"
+head = RIVER
+[[boundary]]
+on = "ditch"
+head = 0.5
+[[boundary]]
+on = "shaft"
+file = "flood.csv"
+[[boundary]]
+on = "well"
+file = "flood.csv"
+"""
+
+
+def check_waters():
+    """Boundaries of the same water rise together."""
+    steady, flood = WATERS.replace("RIVER", "0.8"), WATERS.replace("RIVER", "[[0, 1], [10, 3]]")
+    both = study(steady, BOUNDARY="bank river bed")
+    expect("both get the level", (["boundary[0].head", "boundary[1].head"], ["2.5", "2.5"], []), (both.keys, both.cells(2.5), both.said_of_equal()))
+    expect("which is read back, if both have it", (2.5, None), (level_in(both, ["2.5", "2.5"]), level_in(both, ["2.5", "0.8"])))
+    expect("a head that is the same number is warned of", ['"river bed" has the head of "bank" in the scene, 0.8 m, and keeps it at all levels; '
+           'if it borders the same water, the result is not safe: give BOUNDARY="bank river bed"'], study(steady, BOUNDARY="bank").said_of_equal())
+    expect("unless SET gives it", [], study(steady, BOUNDARY="bank", SET="boundary[1].head=0.8").said_of_equal())
+    expect("another number is other water", [], study(steady, BOUNDARY="ditch").said_of_equal())
+    expect("tables are stretched together", ["[[0, 1.0], [10, 5.0]]"] * 2, study(flood, BOUNDARY="river bed bank").cells(5.0))
+    for variables in ({}, {"STEADY": "1"}):
+        expect("the same table is the same water", 'BOUNDARY: got "bank" without "river bed", which has the same table of heads and would keep its '
+               'level; expected BOUNDARY="bank river bed", or another boundary[1].head in SET', study(flood, BOUNDARY="bank", **variables))
+    expect("or that of the study", ["boundary[0].head"], study(flood, BOUNDARY="bank", SET="boundary[1].head=1").keys)
+    expect("and so is the same file", 'BOUNDARY: got "shaft" without "well", which has the same file and would keep its level; '
+           'expected BOUNDARY="shaft well", or another boundary[4] in SET', study(steady, BOUNDARY="shaft"))
+    expect("files together", (["boundary[3]", "boundary[4]"], 5.0), ((pair := study(steady, BOUNDARY="well shaft shaft")).keys[::-1],
+                                                                       level_in(pair, pair.cells(5.0))))
+    expect("a table and a number", 'BOUNDARY: got "shaft" and "ditch", of which one has a table of heads and one a number; expected boundaries of '
+           "one kind, or STEADY=1", study(steady, BOUNDARY="shaft ditch well"))
+    expect("stand together for ever", ['{on = "shaft", head = 3.0}', "3.0", '{on = "well", head = 3.0}'],
+           study(steady, BOUNDARY="shaft ditch well", STEADY="1").cells(3.0))
+    expect("one that is none", True, study(steady, BOUNDARY="bank bed").startswith('BOUNDARY: got "bed", which is no boundary of SCENE; '))
 
 
 SLOPE_SCENE = """

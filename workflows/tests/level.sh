@@ -57,6 +57,16 @@ run_make critical-level "${column[@]}" FROM=1.6 TO=2 SCAN=2 NAME=ends
 expect 'a level below FROM' 'Erosion begins below FROM = 1.6 m: its factor is 0.833 there. It governs.' "$(said 'Erosion.*')"
 expect 'a level above TO' 'heave begins above TO = 2 m: its factor is 1.19 there.' "$(said 'heave begins.*')"
 
+# A boundary of the same water that would stay where it is.
+sed 's/on = "left", darcy_flux = 0.0/on = "left", head = 1.5/' "a column.toml" > waters.toml
+run_make critical-level SCENE=waters.toml BOUNDARY=bottom FROM=1.5 TO=2 SCAN=2 TOLERANCE_LEVEL=0.5 FACTOR=checks
+low='"left" has the head of "bottom" in the scene, 1.5 m, and keeps it at all levels; if it borders the same water, the result is not safe: give BOUNDARY="bottom left"'
+expect 'a boundary that stays low is warned of' "$(printf '%s\n' "Warning: $low." "critical_level.py: warning: BOUNDARY: $low")" \
+  "$(head -1 "$work/o ut/critical-level/waters/report.md"; grep '^critical_level.*BOUNDARY' "$log")"
+run_make critical-level SCENE=waters.toml BOUNDARY="bottom left" FROM=1.5 TO=2 SCAN=2 TOLERANCE_LEVEL=0.5 FACTOR=checks
+expect 'both get the level' '0 boundary[0].head,boundary[2].head 2.0,2.0 ' \
+  "$code $(sed -n '1p; 3p' "$work/o ut/critical-level/waters/table.csv" | cut -d, -f1,2 | xargs) $(grep -o Warning "$work/o ut/critical-level/waters/report.md" || true)"
+
 # What the mesher warns of is in the logs of the runs.
 run_make critical-level "${column[@]}" FROM=1.6 TO=400 SCAN=2 NAME=high FACTOR=checks
 expect 'warnings of the runs are shown' 'critical_level.py: warning: boundary[0].head: 400 m, and the model lies between 0 and 1 m' \
