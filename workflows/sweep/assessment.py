@@ -18,7 +18,8 @@ EROSION = "erosion"
 SLOPE = "slope"
 STATES = ["start", "last", "all", "checks"]
 # What the programs say where soil cannot bear its loads; docs/use/troubleshooting.md has the messages.
-SOIL_FAILS = re.compile(r"no equilibrium|lost its equilibrium|lose its equilibrium|soil that fails|the soil fails")
+SOIL_FAILS = re.compile(r"no equilibrium|lost its equilibrium|lose its equilibrium|soil that fails|the soil fails|"
+                        r"(loaded surface|solid point \d+) moves .*far outside the mesh")
 NO_STRENGTH = "got no soil with a strength"
 
 
@@ -91,6 +92,29 @@ def checks_of(stem):
     return worst
 
 
+def history_of(stem):
+    """The rows of history.csv of a run; none before it has any."""
+    return read_rows(stem.with_name(f"{stem.name}.results") / "history.csv")
+
+
+def most_of(rows, column):
+    """The largest number of a column, and the time of the row that has it first; 0 where there is none."""
+    found = [(number_of(row.get(column)) or 0.0, -(number_of(row.get("t")) or 0.0)) for row in rows]
+    most, time = max(found, default=(0.0, 0.0))
+    return most, -time
+
+
+def followed_failure(stem):
+    """What is said of a run whose soil failed and was followed with its inertia, which may end well; nothing of other runs."""
+    rows = history_of(stem)
+    times = [time for row in rows if (time := number_of(row.get("failure_time")))]
+    # Soil that fails at t = 0 has no time of failure.
+    if not times and most_of(rows, "inertia")[0] == 0.0:
+        return ""
+    when = f"lost its equilibrium at t = {times[0]:g} s" if times else "had no equilibrium at t = 0 s"
+    return f"the soil {when}, and moved by up to {most_of(rows, 'displacement_max')[0]:.3g} m"
+
+
 def column_of(mechanism):
     return "factor_" + mechanism.replace("-", "_")
 
@@ -112,7 +136,8 @@ def outcomes_of(folder, name, word, message, factor_of):
     which states the factor is.
 
     A run that failed says nothing of the time after: its mechanisms are known if they had begun, or if the start alone was
-    asked for. The loss of equilibrium is a failure of the slope, unless the start alone was asked for, and has a factor.
+    asked for. The loss of equilibrium is a failure of the slope, unless the start alone was asked for, and has a factor; also that of a
+    run that follows the soil until it rests again.
     """
     if word not in ("done", "failed") or not is_assessed(folder, name):
         return {}, False
@@ -123,6 +148,7 @@ def outcomes_of(folder, name, word, message, factor_of):
     factor, said = slope_of(stem)
     lost = [text for text in ([said] if factor is None or factor_of == "all" else []) + [message] * (word == "failed")
             if SOIL_FAILS.search(text)]
+    lost += filter(None, [followed_failure(stem)])
     if factor is not None and (factor_of == "start" or not lost):
         outcomes[SLOPE] = Outcome(factor < 1.0, factor, said=said)
     elif lost:

@@ -272,6 +272,17 @@ SLOPES = [
     ("failed", "suffuse-solver: error: the soil has no equilibrium at the start: it cannot", "", "0.9", "start", (True, 0.9)),
     ("failed", "suffuse-solver: error: no step is short enough", "", "", "last", None),
     ("unfinished", "stopped", "", "1.3", "last", None),
+    ("failed", "t = 3 s: no step has a solution, however short the step is: soil that yields is about to lose its equilibrium", "", "1.1", "last", (True, None)),
+    ("failed", "the loaded surface moves to (3, -1), which is far outside the mesh; make the mesh larger", "", "1.1", "last", (True, None)),
+    ("failed", "solid point 7 moves from (1, 2) to (3, -1), which is far outside the mesh; make", "", "", "checks", (True, None)),
+    ("failed", "boundary left: a well lies far outside the mesh", "", "", "checks", None),
+]
+# Rows of history.csv; states asked for; whether the slope, with a factor of 1.2 in the last state, fails, and what is said.
+HISTORIES = [
+    ("0,0,0,0\n100,0.001,0,0\n", "last", (False, "")),
+    ("0,0,0,0\n100,0.9,0.3,99.5\n200,1.2,0,99.5\n300,1.1,0,250\n", "last", (True, "the soil lost its equilibrium at t = 99.5 s, and moved by up to 1.2 m")),
+    ("0,0,0,0\n1,0.7,0.9,0\n200,2,0,0\n", "all", (True, "the soil had no equilibrium at t = 0 s, and moved by up to 2 m")),
+    ("0,0,0,0\n100,0.9,0.3,99.5\n", "start", (False, "")),
 ]
 
 
@@ -299,6 +310,22 @@ def check_outcomes():
             if word == "failed":
                 expect("a run that failed has shown its start, or what had begun, and filters are no mechanism of a level",
                        {"heave", "uplift"} if states == "start" else {"heave"}, found.keys() - {"slope"})
+
+
+def check_followed():
+    """A run that follows soil that failed, until it rests, ends well; the slope has failed."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        stem = folder / "0001" / "0001"
+        stem.with_name("0001.results").mkdir(parents=True)
+        for suffix, text in (("check.csv", CHECKS[-1]), ("status", "done"), ("factors.csv", "t,factor\n300,1.2\n")):
+            stem.with_name(f"0001.{suffix}").write_text(text)
+        (folder / "assess.inputs").write_text("")
+        stem.with_name("0001.assessed").write_text("")
+        for rows, states, expected in HISTORIES:
+            (stem.with_name("0001.results") / "history.csv").write_text("t,displacement_max,inertia,failure_time\n" + rows)
+            slope = outcomes_of(folder, "0001", "done", "", states)[0]["slope"]
+            expect(f"a followed failure: {rows!r} {states}", expected, (slope.fails, slope.said))
 
 
 def check_absent():
