@@ -12,9 +12,9 @@ Exit codes: 2 for wrong input; 1 if runs have no answer.
 import dataclasses
 import math
 
-from levels import (InputError, call, csv_text, named_failures, number_in, outcomes, report, rounded, rows_of_sweep,
+from levels import (InputError, call, creep_of_runs, csv_text, named_failures, number_in, outcomes, report, rounded, rows_of_sweep,
                     said_beside, slopes_of, stems_of, write_changed, write_table, wrong)
-from assessment import SLOPE, in_order, is_assessed, messages_of, spoken
+from assessment import SLOPE, in_order, is_assessed, messages_of, said_of_creep, spoken
 from common import cell, read_rows
 from svg import CURVES, Panel, document
 
@@ -203,6 +203,14 @@ def not_looked_at(folder, runs, mechanisms):
     return [f"slope was not looked at: {next((text for text in said if text), 'FACTOR=checks')}"]
 
 
+def said_of_creeping(moved):
+    """A warning of soil that moved at levels where its slope holds. `moved`: level -> by how much."""
+    if not moved:
+        return []
+    places = {min(moved): None, max(moved, key=moved.get): None}
+    return [f"- Warning: slope: {said_of_creep(' and '.join(f'{moved[level]:.3g} m at a level of {metres(level)}' for level in places))}."]
+
+
 def levels_table(runs, known, mechanisms):
     header = ["level [m]", "run", "status", *(f"{name} [-]" for name in mechanisms), "governs", "message"]
     rows = []
@@ -272,6 +280,7 @@ def conclude(study, folder):
     lines += [f"- {row['said']}." for row in rows if row is not first and row["found"] != "absent"]
     absent = [spoken(row["mechanism"]) for row in rows if row["found"] == "absent"]
     lines += [f"- {' and '.join(absent)}: no level has a factor."] if absent else []
+    lines += said_of_creeping(creep_of_runs(study, folder, rows_known, known))
     lines += [f"- {text}." for text in not_looked_at(folder, rows_known.values(), mechanisms)]
     lines += ["", *beside] if (beside := said_beside(study, folder, rows_known.values(), mechanisms, "Not part of the search")) else []
     return report(study, folder, lines, wanted, silent)

@@ -10,9 +10,9 @@ import os
 
 from scipy.stats import beta
 
-from levels import (InputError, call, csv_text, named_failures, outcomes, report, rounded, rows_of_sweep, said_beside,
+from levels import (InputError, call, creep_of_runs, csv_text, named_failures, outcomes, report, rounded, rows_of_sweep, said_beside,
                     write_changed, write_table, wrong)
-from assessment import EROSION, SLOPE, Outcome, in_order, spoken
+from assessment import EROSION, SLOPE, Outcome, in_order, said_of_creep, spoken
 from common import cell, number_of
 from runs import MOST_RUNS, read_runs
 from svg import CURVES, Panel, document
@@ -158,6 +158,9 @@ def conclude(study, folder):
         lines.append(f"No run has a factor of {' or '.join(absent)}.")
     if SLOPE not in mechanisms:
         lines.append("The slope was not looked at.")
+    moved = creep_of_runs(study, folder, dict(enumerate(rows)), found)
+    if moved:
+        lines.append(f"Warning: slope: {said_of_creep(f'up to {max(moved.values()):.3g} m in {len(moved)} of {len(rows)} runs')}.")
     lines += said_beside(study, folder, rows, mechanisms, "Not counted")
     return report(study, folder, lines, rows, silent)
 

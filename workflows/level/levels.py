@@ -14,8 +14,8 @@ import tomllib
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
-from assessment import (SLOPE, STATES, WITHOUT_STRENGTH, is_assessed, outcomes_of, reduction_options, said_of_options, said_of_others, table_in,
-                        with_absent)
+from assessment import (SLOPE, STATES, WITHOUT_STRENGTH, creep_of, is_assessed, may_have_strength, outcomes_of, reduction_options,
+                        said_of_options, said_of_others, table_in, with_absent)
 from common import (InputError, csv_text, end_with, find_file, folder_of, is_number, number_of, read, read_csv, read_rows, read_scene,
                     write_changed, wrong)
 from sweep import make, read_status, refuse_foreign
@@ -266,6 +266,11 @@ class Study:
         kept = {key: value for key, value in self.changes().items() if ".".join(key.split(".")[:3]) not in skeletons}
         return kept | {key: "{" + ", ".join(f"{name} = {toml(value)}" for name, value in table.items()) + "}" for key, table in skeletons.items()}
 
+    def may_slide(self):
+        """Whether a soil of the runs may have a strength; runs beside which the slope is looked at have elastic soil."""
+        soils = table_in(self.scene, "soil")
+        return self.elastic_changes() is None and any(may_have_strength(soils, name, list(self.own)) for name in soils)
+
     def _skeleton_of(self, name, known=()):
         """The keys of the skeleton of a soil, with those of the soil that it is like and those of SET; None where that is not clear."""
         soil = table_in(table_in(self.scene, "soil"), name)
@@ -344,6 +349,14 @@ def said_beside(study, folder, rows, mechanisms, start):
     moves = SLOPE in mechanisms and not {"hyd-stresses", "hyd-forces", "uplift"} & set(mechanisms)
     return ([f"{start}, as they do not depend on the level: {others}."] * bool(others) + [f"Of the slope, {options}."] * bool(options)
             + ["Heave by EN 1997-1 and uplift are not checked where soil moves: a study without strengths looks at them."] * moves)
+
+
+def creep_of_runs(study, folder, rows, found):
+    """Key -> by how much soil moved, m, of the runs where that is much and the slope does not fail. `rows`: key -> row of the sweep.
+    `found`: key -> outcomes."""
+    held = [key for key in rows if study.may_slide() and not (SLOPE in found[key] and found[key][SLOPE].fails)]
+    moved = {key: creep_of(folder / "runs" / rows[key]["run"] / rows[key]["run"]) for key in held}
+    return {key: length for key, length in moved.items() if length > 0.0}
 
 
 def warnings_of(stem):

@@ -20,6 +20,8 @@ STATES = ["start", "last", "all", "checks"]
 # What the programs say where soil cannot bear its loads; docs/use/troubleshooting.md has the messages.
 SOIL_FAILS = re.compile(r"no equilibrium|lost its equilibrium|lose its equilibrium|soil that fails|the soil fails|"
                         r"(loaded surface|solid point \d+) moves .*far outside the mesh")
+# Soil that moves in equilibrium by more than this share of its height may slide without an end. Without a height it is this length, m.
+CREEP, CREEP_LENGTH = 0.01, 0.1
 NO_STRENGTH = "got no soil with a strength"
 
 
@@ -98,10 +100,8 @@ def history_of(stem):
 
 
 def most_of(rows, column):
-    """The largest number of a column, and the time of the row that has it first; 0 where there is none."""
-    found = [(number_of(row.get(column)) or 0.0, -(number_of(row.get("t")) or 0.0)) for row in rows]
-    most, time = max(found, default=(0.0, 0.0))
-    return most, -time
+    """The largest number of a column; 0 where there is none."""
+    return max((number_of(row.get(column)) or 0.0 for row in rows), default=0.0)
 
 
 def followed_failure(stem):
@@ -109,10 +109,36 @@ def followed_failure(stem):
     rows = history_of(stem)
     times = [time for row in rows if (time := number_of(row.get("failure_time")))]
     # Soil that fails at t = 0 has no time of failure.
-    if not times and most_of(rows, "inertia")[0] == 0.0:
+    if not times and most_of(rows, "inertia") == 0.0:
         return ""
     when = f"lost its equilibrium at t = {times[0]:g} s" if times else "had no equilibrium at t = 0 s"
-    return f"the soil {when}, and moved by up to {most_of(rows, 'displacement_max')[0]:.3g} m"
+    return f"the soil {when}, and moved by up to {most_of(rows, 'displacement_max'):.3g} m"
+
+
+def height_of_soil(stem):
+    """From the lowest to the highest node of the elements with soil, or None where the case cannot be read."""
+    try:
+        import h5py  # only here: sweeps without it find all but this
+        with h5py.File(stem.with_name(f"{stem.name}.case.h5")) as case:
+            elements = case["mesh/elements"][()][case["solid_points/element"][()]]
+            heights = case["mesh/nodes"][()][:, -1][elements]
+            return float(heights.max() - heights.min())
+    except (ImportError, OSError, KeyError, ValueError):
+        return None
+
+
+def creep_of(stem):
+    """By how much the soil of a run moved, m, where that is much for soil in equilibrium; 0 where it is not, or where soil failed."""
+    moved = most_of(history_of(stem), "displacement_max")
+    if moved == 0.0 or followed_failure(stem):
+        return 0.0
+    height = height_of_soil(stem)
+    return moved if moved > (CREEP_LENGTH if height is None else CREEP * height) else 0.0
+
+
+def said_of_creep(amount):
+    """`amount`: by how much, and where."""
+    return f"the soil moved by {amount}, in equilibrium: it may slide slowly, and the moment of failure depends on the mesh"
 
 
 def column_of(mechanism):
@@ -150,7 +176,9 @@ def outcomes_of(folder, name, word, message, factor_of):
             if SOIL_FAILS.search(text)]
     lost += filter(None, [followed_failure(stem)])
     if factor is not None and (factor_of == "start" or not lost):
-        outcomes[SLOPE] = Outcome(factor < 1.0, factor, said=said)
+        moved = creep_of(stem) if factor >= 1.0 else 0.0
+        texts = [said, said_of_creep(f"{moved:.3g} m") if moved else ""]
+        outcomes[SLOPE] = Outcome(factor < 1.0, factor, said="; ".join(filter(None, texts)))
     elif lost:
         outcomes[SLOPE] = Outcome(True, factor if factor is not None and factor < 1.0 else None, said=lost[0])
     return outcomes, is_complete

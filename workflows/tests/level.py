@@ -6,14 +6,15 @@ import os
 import pathlib
 import tempfile
 
+import h5py
 from scipy.stats import binom
 
 from expectations import answer, expect, expect_near, finish
 from assessment import MECHANISMS as ON_LEVEL
 from assessment import Outcome, checks_of, outcomes_of, reduction_options, said_of_options, said_of_others, with_absent
-from critical_level import crossing, draw, replay, search
+from critical_level import crossing, draw, replay, said_of_creeping, search
 from fragility import bounds, draw_chart, groups_of, with_any
-from levels import Study, named_warnings
+from levels import Study, creep_of_runs, named_warnings
 from svg import CURVES, WIDTH
 
 FROM, TO, SCAN, TOLERANCE = 1.0, 4.0, [1.0, 1.75, 2.5, 3.25, 4.0], 0.03
@@ -326,6 +327,44 @@ def check_followed():
             (stem.with_name("0001.results") / "history.csv").write_text("t,displacement_max,inertia,failure_time\n" + rows)
             slope = outcomes_of(folder, "0001", "done", "", states)[0]["slope"]
             expect(f"a followed failure: {rows!r} {states}", expected, (slope.fails, slope.said))
+
+
+def check_creep():
+    """Soil that moves far in equilibrium holds, with a warning."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name) / "runs"
+        stem = folder / "0001" / "0001"
+        stem.with_name("0001.results").mkdir(parents=True)
+        for suffix, text in (("check.csv", CHECKS[-1]), ("status", "done"), ("assessed", "")):
+            stem.with_name(f"0001.{suffix}").write_text(text)
+        (folder / "assess.inputs").write_text("")
+        os.utime(folder / "assess.inputs", (1.0, 1.0))
+        os.utime(stem.with_name("0001.status"), (1.0, 1.0))
+
+        def said(moved, factor=1.003, failed=0):
+            (stem.with_name("0001.results") / "history.csv").write_text(f"t,displacement_max,failure_time\n0,0,0\n9,{moved},{failed}\n")
+            stem.with_name("0001.factors.csv").write_text(f"t,factor\n9,{factor}\n")
+            slope = outcomes_of(folder, "0001", "done", "", "last")[0]["slope"]
+            return slope.fails, slope.said
+
+        creeps = "the soil moved by 1.07 m, in equilibrium: it may slide slowly, and the moment of failure depends on the mesh"
+        expect("without a case, a tenth of a metre is much", [(False, creeps), (False, "")], [said(1.07), said(0.09)])
+        with h5py.File(stem.with_name("0001.case.h5"), "w") as case:  # soil up to 4 m, air up to 200 m
+            case["mesh/nodes"] = [[0.0, 0.0], [1.0, 0.0], [0.0, 4.0], [1.0, 200.0]]
+            case["mesh/elements"], case["solid_points/element"] = [[1, 3, 2], [0, 1, 2]], [1, 1]
+        expect("else 1 % of the height of the soil", ["", creeps.replace("1.07", "0.0401")], [said(0.0399)[1], said(0.0401)[1]])
+        expect("soil that fails does not creep", [(True, ""), True], [said(1.07, 0.9), "lost its equilibrium" in said(1.07, 1.1, 5)[1]])
+        # What a study says of it.
+        said(1.07)
+        runs, known = {2.0: {"run": "0001"}}, {2.0: {"slope": Outcome(False, 1.003)}}
+        creeping = lambda scene, **variables: creep_of_runs(study(scene, BOUNDARY="river", **variables), pathlib.Path(name), runs, known)
+        expect("runs that creep", {2.0: 1.07}, creeping(SLOPE_SCENE, FACTOR="last"))
+        expect("elastic runs do not", [{}, {}], [creeping(SLOPE_SCENE), creeping(SLOPE_SCENE.replace("mohr-coulomb", "elastic"), FACTOR="last")])
+        known[2.0]["slope"].fails = True
+        expect("nor those that fail", {}, creeping(SLOPE_SCENE, FACTOR="last"))
+    expect("the report warns of the first and the worst", ["- Warning: slope: " + creeps.replace("1.07 m", "0.2 m at a level of 3 m and 1.07 m at a level of 9.5 m") + "."],
+           said_of_creeping({9.5: 1.07, 3.0: 0.2, 6.0: 0.5}))
+    expect("or of none", [], said_of_creeping({}))
 
 
 def check_absent():
