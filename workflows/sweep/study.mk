@@ -9,6 +9,7 @@ $(runs_goals): export PROGRAMS    := $(BIN)
 $(runs_goals): export CALLED_FROM := $(PWD)
 $(foreach name,PYTHON TOLERANCE SCENE SWEEP NAME LAUNCH FACTOR REGION DEEPER QUADRATIC OUTPUTS SIZES TOLERANCES MEASURED KEYS \
   AGAINST OVER BOUNDARY FROM TO LEVELS SCAN TOLERANCE_LEVEL STEADY SET,$(eval $(runs_goals): export $(name) := $$($(name))))
+critical-level fragility: export TOLERANCE := $(tolerance_of_levels)
 $(runs_goals): $(if $(build_step),$(mesher) $(solver) $(post))
 
 .PHONY: study

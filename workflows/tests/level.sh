@@ -57,6 +57,18 @@ run_make critical-level "${column[@]}" FROM=1.6 TO=2 SCAN=2 NAME=ends
 expect 'a level below FROM' 'Erosion begins below FROM = 1.6 m: its factor is 0.833 there. It governs.' "$(said 'Erosion.*')"
 expect 'a level above TO' 'heave begins above TO = 2 m: its factor is 1.19 there.' "$(said 'heave begins.*')"
 
+# tolerance_in TARGET VARIABLE...: what the runs of a target get. They are not made.
+tolerance_in() {
+  run_make "$@" "${column[@]}" LAUNCH=echo NAME=told
+  grep -o ' 0001/0001 [0-9e-]*' "$log" | head -1 | cut -d' ' -f3
+}
+printf '%s\n' 'boundary[0].head' 2.0 > heads.csv
+printf '%s\n' 'soil.specimen.porosity' 0.3 > porosities.csv
+expect 'masses of a sweep are those that rounding leaves' '1e-12 1e-6' "$(tolerance_in sweep SWEEP=heads.csv) $(tolerance_in sweep SWEEP=heads.csv TOLERANCE=1e-6)"
+expect 'an answer needs nine digits of them' '1e-9 1e-9' \
+  "$(tolerance_in critical-level FROM=1 TO=2) $(tolerance_in fragility LEVELS=1 SWEEP=porosities.csv)"
+expect 'or as many as are asked for' '1e-12 1e-11' "$(tolerance_in critical-level FROM=1 TO=2 TOLERANCE=1e-12) $(TOLERANCE=1e-11 tolerance_in critical-level FROM=1 TO=2)"
+
 # A boundary of the same water that would stay where it is.
 sed 's/on = "left", darcy_flux = 0.0/on = "left", head = 1.5/' "a column.toml" > waters.toml
 run_make critical-level SCENE=waters.toml BOUNDARY=bottom FROM=1.5 TO=2 SCAN=2 TOLERANCE_LEVEL=0.5 FACTOR=checks
