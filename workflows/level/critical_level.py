@@ -267,7 +267,7 @@ def conclude(study, folder):
         end = slopes.get(level, {"status": "unfinished", "message": ""})
         silent += [end | {"run": f"slope at {metres(level)}"}] * (end["status"] in ("unfinished", "refused"))
     if not mechanisms:
-        raise InputError(["no run says how safe it is", *named_failures(silent)])
+        raise InputError(["no run says how safe it is", *named_failures(folder, silent)])
     rows = [row_of(name, known, search(name, known, (levels[0], levels[-1]))) for name in mechanisms]
     acting = [row["mechanism"] for row in rows if row["found"] != "absent"]
     write_changed(folder / "levels.csv", csv_text(levels_table(rows_known, known, acting)))

@@ -139,7 +139,7 @@ def conclude(study, folder):
     mechanisms = [name for name in names if any(name in found and (found[name].fails or found[name].factor is not None)
                                                 for _, _, found in runs)]
     if not mechanisms:
-        raise InputError(["no run says how safe it is", *named_failures(silent)])
+        raise InputError(["no run says how safe it is", *named_failures(folder, silent)])
     runs = [(draw, level, with_any({name: found[name] for name in mechanisms if name in found}, mechanisms))
             for draw, level, found in runs]
     shown = [*mechanisms, *groups_of(mechanisms)]

@@ -14,7 +14,7 @@ import tomllib
 
 workflows = pathlib.Path(__file__).resolve().parent.parent
 sys.path[1:1] = [str(workflows), str(workflows / "sweep")]
-from assessment import (SLOPE, STATES, WITHOUT_STRENGTH, creep_of, is_assessed, may_have_strength, outcomes_of, reduction_options,
+from assessment import (SLOPE, STATES, WITHOUT_STRENGTH, creep_of, is_assessed, may_have_strength, messages_of, outcomes_of, reduction_options,
                         said_of_options, said_of_others, table_in, with_absent)
 from common import (InputError, csv_text, end_with, find_file, folder_of, is_number, number_of, read, read_csv, read_rows, read_scene,
                     write_changed, wrong)
@@ -396,14 +396,24 @@ def report(study, folder, lines, rows, silent):
     lines = [*(f"Warning: {text}." for text in warnings), *[""] * bool(warnings), *lines]
     write_changed(folder / "report.md", "\n".join(lines) + "\n")
     print("\n".join([*lines, f"Tables and chart are in {folder.resolve()}"]), flush=True)
-    for line in [f"warning: BOUNDARY: {text}" for text in warnings] + named_warnings(folder, rows) + named_failures(silent):
+    for line in [f"warning: BOUNDARY: {text}" for text in warnings] + named_warnings(folder, rows) + named_failures(folder, silent):
         print(f"{pathlib.Path(sys.argv[0]).name}: {line}", file=sys.stderr)
     return 1 if silent else 0
 
 
-def named_failures(rows):
+def why_silent(folder, row):
+    """Why a run that has ended without a message has no answer."""
+    if row["status"] != "done" or not is_assessed(folder / "runs", row["run"]):
+        return "has no answer; call make again"
+    stem = folder.resolve() / "runs" / row["run"] / row["run"]
+    said = messages_of(stem)
+    return "no mechanism acts in this run: " + "; ".join((
+        said.get("check", f"no check has a factor, and suffuse-post check {stem}.results says why"), said.get("factor", "the slope was not looked at")))
+
+
+def named_failures(folder, rows):
     """A line for each run that has no answer, ten at most."""
-    lines = [f"{row['run']} {row['status']}: {row['message'] or 'has no answer; call make again'}" for row in rows]
+    lines = [f"{row['run']} {row['status']}: {row['message'] or why_silent(folder, row)}" for row in rows]
     return lines[:10] + ([f"... and {len(lines) - 10} more: see runs/sweep.csv"] if len(lines) > 10 else [])
 
 

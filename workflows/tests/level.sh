@@ -79,6 +79,16 @@ run_make critical-level SCENE=waters.toml BOUNDARY="bottom left" FROM=1.5 TO=2 S
 expect 'both get the level' '0 boundary[0].head,boundary[2].head 2.0,2.0 ' \
   "$code $(sed -n '1p; 3p' "$work/o ut/critical-level/waters/table.csv" | cut -d, -f1,2 | xargs) $(grep -o Warning "$work/o ut/critical-level/waters/report.md" || true)"
 
+# Water that sinks lifts nothing, and nothing erodes.
+sed '/^erosion/d' "a column.toml" > sinking.toml
+out="$work/o ut/critical-level/sinking"
+no_mechanism="no mechanism acts in this run: no check has a factor, and suffuse-post check $out/runs/0001/0001.results says why"
+run_make critical-level SCENE=sinking.toml BOUNDARY=bottom FROM=0.5 TO=0.75 SCAN=2
+expect 'runs in which nothing acts' "2 critical_level.py: 0001 done: $no_mechanism; no soil has a strength" "$code $(grep '0001 done: no' "$log")"
+run_make critical-level SCENE=sinking.toml BOUNDARY=bottom FROM=0.5 TO=0.75 SCAN=2 FACTOR=checks
+expect 'or in which the slope is left out' "2 critical_level.py: 0001 done: $no_mechanism; the slope was not looked at" "$code $(grep '0001 done: no' "$log")"
+out="$work/o ut/critical-level/a column"
+
 # What the mesher warns of is in the logs of the runs.
 run_make critical-level "${column[@]}" FROM=1.6 TO=400 SCAN=2 NAME=high FACTOR=checks
 expect 'warnings of the runs are shown' 'critical_level.py: warning: boundary[0].head: 400 m, and the model lies between 0 and 1 m' \
