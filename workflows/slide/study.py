@@ -26,7 +26,7 @@ def factor(solver, stem, time, *options):
 
 def factors(solver, stem):
     print("t,factor,quadratic,fines_left")
-    for time in range(0, 20001, 2500):
+    for time in range(0, 17501, 2500):
         linear, quadratic = factor(solver, stem, time), factor(solver, stem, time, "--quadratic")
         if linear and quadratic:
             print(time, linear["factor"], quadratic["factor"], linear["fines_left"], sep=",", flush=True)
