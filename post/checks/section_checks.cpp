@@ -118,7 +118,8 @@ double mean_thickness(const Section& section, const PipePath& path, const std::s
   double sum = 0.0;
   for (int i = 0; i < count; ++i) {
     const double x = path.from + (i + 0.5) / count * (path.to - path.from);
-    sum += section.lines().length_in(section.below(x, "check.backward_erosion.thickness"), layer);
+    const auto line = section.below(x, "check.backward_erosion.thickness");
+    sum += length_of<2>(section.lines().highest_layer(line, layer));
   }
   return sum / count;
 }
@@ -175,6 +176,20 @@ std::string sentences(const std::vector<std::string>& list) {
   return text;
 }
 
+/// The layers of blanket theory on a vertical line. Soils of their regions may come again in other
+/// layers, which are no part of them.
+struct BlanketLayers {
+  LinePart<2> cover;  ///< the lowest one above the aquifer
+  LinePart<2> aquifer;
+};
+
+BlanketLayers blanket_layers(const Section& section, LinePart<2> line,
+                             const BlanketSettings& settings) {
+  const LinePart<2> aquifer = section.lines().highest_layer(line, settings.aquifer);
+  const LinePart<2> above{line.begin(), aquifer.begin()};
+  return {section.lines().lowest_layer(above, settings.cover), aquifer};
+}
+
 /// A side of the levee beyond a toe.
 BlanketSide side_of(const ResultsReader& results, const Section& section,
                     const BlanketSettings& settings, double toe, double away, AquiferEnd end,
@@ -191,24 +206,24 @@ BlanketSide side_of(const ResultsReader& results, const Section& section,
   // The middle of the side: the slope of the levee ends at the toe itself.
   const double middle = toe + 0.5 * away * side.length;
   if (!(side.length > 0.0)) return side;
-  side.cover_thickness = section.lines().length_in(section.below(middle, key), settings.cover);
+  const auto line = section.below(middle, key);
+  side.cover_thickness = length_of<2>(blanket_layers(section, line, settings).cover);
   const Soil& cover = *scene.find_soil(settings.cover);
   side.cover_conductivity =
       std::isnan(cover.conductivity_across) ? cover.conductivity : cover.conductivity_across;
   return side;
 }
 
-/// The section of the theory, by the line below the landside toe. Throws InputError, naming the
+/// The section of the theory, by the layers below the landside toe. Throws InputError, naming the
 /// toe.
 BlanketSection blanket_section(const ResultsReader& results, const Section& section,
-                               const BlanketSettings& settings,
-                               const std::vector<LineSegment<2>>& line) {
+                               const BlanketSettings& settings, const BlanketLayers& layers) {
   const std::string table = "check.blanket";
   const std::string toe_key = table + ".landside_toe";
   const double towards_land = settings.landside_toe > settings.riverside_toe ? 1.0 : -1.0;
   BlanketSection blanket;
   blanket.base = std::abs(settings.landside_toe - settings.riverside_toe);
-  blanket.aquifer_thickness = section.lines().length_in(line, settings.aquifer);
+  blanket.aquifer_thickness = length_of<2>(layers.aquifer);
   blanket.aquifer_conductivity = results.scene().scene.find_soil(settings.aquifer)->conductivity;
   blanket.riverside = side_of(results, section, settings, settings.riverside_toe, -towards_land,
                               settings.riverside, table + ".riverside_toe");
@@ -276,16 +291,13 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   const GroundPlace<2> toe = section.ground_at(settings.landside_toe, toe_key);
   const auto line = section.lines().below(toe);
 
-  const BlanketSection blanket = blanket_section(results, section, settings, line);
-  // The node of the aquifer's top nearest to the toe.
-  const auto first = std::ranges::find_if(line, [&](const LineSegment<2>& segment) {
-    return section.lines().region_of(segment.element) == settings.aquifer;
-  });
-  const double cover_at_toe = section.lines().length_in(line, settings.cover);
-  if (first == line.begin() || !(cover_at_toe > 0.0)) {
+  const BlanketLayers layers = blanket_layers(section, line, settings);
+  const BlanketSection blanket = blanket_section(results, section, settings, layers);
+  if (layers.cover.empty()) {
     refuse_setting(results, toe_key, "an aquifer without a cover", "a toe on the cover");
   }
-  const LineSegment<2>& above = *std::prev(first);
+  const double cover_at_toe = length_of<2>(layers.cover);
+  const LineSegment<2>& above = *std::prev(layers.aquifer.begin());
   CheckRow row{.mechanism = "blanket", .where = settings.cover, .clause = "EM 1110-2-1913, B"};
   row.unit = "1";
   row.resistance = critical_gradient(results, results.times().size() - 1)[above.element];

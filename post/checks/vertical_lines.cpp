@@ -181,14 +181,36 @@ std::vector<LineSegment<Dim>> VerticalLines<Dim>::below(const GroundPlace<Dim>& 
 }
 
 template <int Dim>
-double VerticalLines<Dim>::length_in(const std::vector<LineSegment<Dim>>& line,
-                                     const std::string& region) const {
-  double length = 0.0;
-  for (const LineSegment<Dim>& segment : line) {
-    if (region_of(segment.element) == region) length += segment.length;
+LinePart<Dim> VerticalLines<Dim>::highest_layer(LinePart<Dim> line,
+                                                const std::string& region) const {
+  const auto is_in = [&](const LineSegment<Dim>& segment) {
+    return region_of(segment.element) == region;
+  };
+  const auto first = std::find_if(line.begin(), line.end(), is_in);
+  return {first, std::find_if_not(first, line.end(), is_in)};
+}
+
+template <int Dim>
+LinePart<Dim> VerticalLines<Dim>::lowest_layer(LinePart<Dim> line,
+                                               const std::string& region) const {
+  LinePart<Dim> lowest = highest_layer(line, region);
+  LinePart<Dim> next = lowest;
+  while (!next.empty()) {
+    lowest = next;
+    next = highest_layer({lowest.end(), line.end()}, region);
   }
+  return lowest;
+}
+
+template <int Dim>
+double length_of(LinePart<Dim> part) {
+  double length = 0.0;
+  for (const LineSegment<Dim>& segment : part) length += segment.length;
   return length;
 }
+
+template double length_of<2>(LinePart<2>);
+template double length_of<3>(LinePart<3>);
 
 template class VerticalLines<2>;
 template class VerticalLines<3>;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,14 @@ struct LineSegment {
   double length = 0.0;                       ///< m
   std::array<double, Dim + 1> base_weights;  ///< barycentric coordinates of its lower end
 };
+
+/// Segments of a vertical line that follow each other, in order.
+template <int Dim>
+using LinePart = std::span<const LineSegment<Dim>>;
+
+/// Length of a part of a line, m.
+template <int Dim>
+double length_of(LinePart<Dim> part);
 
 /// A place on the ground: a face of soil that looks up, with no soil above it. Walls and wells
 /// inside the soil are no ground; lines cross them.
@@ -47,9 +56,11 @@ class VerticalLines {
   [[nodiscard]] std::optional<GroundPlace<Dim>> ground_at(double x) const;
   /// The line from a place on the ground down to the end of the soil, in order.
   [[nodiscard]] std::vector<LineSegment<Dim>> below(const GroundPlace<Dim>& place) const;
-  /// Length of a line within a region, m.
-  [[nodiscard]] double length_in(const std::vector<LineSegment<Dim>>& line,
-                                 const std::string& region) const;
+  /// The highest layer of a region on a line. It ends at the first soil of another region, also
+  /// where the region comes again below. Empty if there is none.
+  [[nodiscard]] LinePart<Dim> highest_layer(LinePart<Dim> line, const std::string& region) const;
+  /// The lowest layer of a region on a line.
+  [[nodiscard]] LinePart<Dim> lowest_layer(LinePart<Dim> line, const std::string& region) const;
   [[nodiscard]] const std::string& region_of(int element) const {
     return mesh_.region_names[mesh_.element_region[element]];
   }
