@@ -83,6 +83,16 @@ class ColumnChecks {
     return has_gravity_ ? std::max(0.0, pressure) : pressure;
   }
 
+  /// Pressure at the base of a segment. Both sides of a wall have one of their own: a column lifts
+  /// off together with a wall at its base, and the larger one acts on it.
+  [[nodiscard]] double pressure_below(const ColumnState& state,
+                                      const std::vector<LineSegment<Dim>>& line,
+                                      std::size_t i) const {
+    const double above = pressure_at(state, line[i].element, line[i].base_weights);
+    if (i + 1 == line.size()) return above;
+    return std::max(above, pressure_at(state, line[i + 1].element, line[i + 1].top_weights));
+  }
+
   /// Weight of soil and water in an element, N/m3.
   [[nodiscard]] double bulk_weight(const ColumnState& state, int element) const {
     const Soil& soil = *scene_.find_soil(lines_.region_of(element));
@@ -103,7 +113,7 @@ class ColumnChecks {
       column.depth += segment.length;
       column.total_stress += segment.length * bulk_weight(state, segment.element);
       if (is_saturated(state, segment.element)) hydrostatic += segment.length * unit_weight_;
-      const double stored = pressure_at(state, segment.element, segment.base_weights) - on_ground;
+      const double stored = pressure_below(state, line, i) - on_ground;
       // Without gravity pressures are those above the hydrostatic one, from any datum.
       column.pressure = has_gravity_ ? std::max(0.0, stored) : stored + hydrostatic;
       column.seepage_force = column.pressure - hydrostatic;

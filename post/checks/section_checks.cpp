@@ -298,6 +298,7 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   }
   const double cover_at_toe = length_of<2>(layers.cover);
   const LineSegment<2>& above = *std::prev(layers.aquifer.begin());
+  const LineSegment<2>& below = layers.aquifer.front();
   CheckRow row{.mechanism = "blanket", .where = settings.cover, .clause = "EM 1110-2-1913, B"};
   row.unit = "1";
   row.resistance = critical_gradient(results, results.times().size() - 1)[above.element];
@@ -316,7 +317,7 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
     const double ground = toe.bears_water ? std::max(at(toe.element, toe.weights), level) : level;
     const double river = largest_head(section, head, settings.entry) - ground;
     if (!(river > worst.river)) continue;
-    worst = {results.times()[i], river, at(above.element, above.base_weights) - ground};
+    worst = {results.times()[i], river, at(below.element, below.top_weights) - ground};
     row.note_factor(row.resistance / (share * river / cover_at_toe), worst.time);
   }
   row.time = worst.time;

@@ -173,7 +173,7 @@ std::vector<LineSegment<Dim>> VerticalLines<Dim>::below(const GroundPlace<Dim>& 
     }
     if (exit < 0) break;
     x -= length * up_;
-    line.push_back({element, length, barycentric<Dim>(mesh_, element, x)});
+    line.push_back({element, length, weights, barycentric<Dim>(mesh_, element, x)});
     entry = element;
     element = neighbour(element, exit);
   }

@@ -21,6 +21,7 @@ template <int Dim>
 struct LineSegment {
   int element = 0;
   double length = 0.0;                       ///< m
+  std::array<double, Dim + 1> top_weights;   ///< barycentric coordinates of its upper end
   std::array<double, Dim + 1> base_weights;  ///< barycentric coordinates of its lower end
 };
 
