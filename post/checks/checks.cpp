@@ -56,13 +56,15 @@ class Gaps {
     if (!has("erosion")) text += ", suffusion (no soil erodes)";
     if (!has("internal-stability")) text += ", internal stability (key soil.NAME.gradation)";
     if (!has("heave")) text += ", heave (water rises at no boundary that it leaves through)";
-    if (!has("hyd-forces")) {
-      text += scene_.moves() ? ", heave by EN 1997-1 (the soil moves)"
-                             : ", heave by EN 1997-1 (water leaves through no ground)";
-    }
+    if (!has("hyd-forces")) text += ", " + heave_by_forces();
     if (!has("uplift")) text += ", " + uplift();
     if (!has("blanket")) text += ", blanket theory (key check.blanket.aquifer)";
     return text;
+  }
+  [[nodiscard]] std::string heave_by_forces() const {
+    if (scene_.moves()) return "heave by EN 1997-1 (the soil moves)";
+    return std::string("heave by EN 1997-1") + (has("hyd-stresses") ? ", 2.9b" : "") +
+           " (water leaves through no ground)";
   }
   [[nodiscard]] std::string uplift() const {
     const std::string& cover = settings_.uplift.cover;

@@ -11,6 +11,9 @@
 namespace suffuse {
 namespace {
 
+/// Share of the hydrostatic pressure by which pressures exceed it as a matter of round-off.
+constexpr double negligible_excess = 1e-6;
+
 /// The fields of a snapshot that load the columns.
 struct ColumnState {
   ColumnState(const ResultsReader& results, std::size_t index)
@@ -44,7 +47,9 @@ class ColumnChecks {
       const bool is_exit = place.lets_water_out && is_saturated(state, place.element) &&
                            flux_through(state, place) > 0.0;
       const bool is_cover = lines_.region_of(place.element) == settings_.uplift.cover;
-      if (is_exit || is_cover) look_below(state, place, is_exit, is_cover);
+      // Without gravity pressures below ground that no water leaves have no datum.
+      const bool is_open = place.lets_water_out && has_gravity_;
+      if (is_exit || is_cover || is_open) look_below(state, place, is_exit, is_cover);
     }
   }
 
@@ -102,6 +107,16 @@ class ColumnChecks {
     return unit_weight_ / scene_.liquid.density * density;
   }
 
+  /// Whether the water below a column would rise above the ground and above the water there. This
+  /// lifts tight or dry ground too, through which no water leaves.
+  [[nodiscard]] bool is_artesian(const ColumnState& state, const GroundPlace<Dim>& place,
+                                 const ColumnLoads& column) const {
+    if (!place.lets_water_out || !has_gravity_) return false;
+    const double at_ground = std::max(0.0, pressure_at(state, place.element, place.weights));
+    const double hydrostatic = (1.0 + negligible_excess) * column.depth * unit_weight_;
+    return column.pressure + pressure_on(state, place) > at_ground + hydrostatic;
+  }
+
   void look_below(const ColumnState& state, const GroundPlace<Dim>& place, bool is_exit,
                   bool is_cover) {
     const double on_ground = pressure_on(state, place);
@@ -118,9 +133,11 @@ class ColumnChecks {
       column.pressure = has_gravity_ ? std::max(0.0, stored) : stored + hydrostatic;
       column.seepage_force = column.pressure - hydrostatic;
       column.weight = column.total_stress - hydrostatic;
-      if (is_exit) {
+      if (is_exit || is_artesian(state, place, column)) {
         add("hyd-stresses", "EN 1997-1, 2.9a", "Pa", heave_by_stresses(column, settings_.heave),
             column, state, place);
+      }
+      if (is_exit) {
         add("hyd-forces", "EN 1997-1, 2.9b", "N/m2", heave_by_forces(column, settings_.heave),
             column, state, place);
       }

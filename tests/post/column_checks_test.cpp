@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "common/errors.hpp"
 #include "post/check_scenes.hpp"
 #include "post/run_programs.hpp"
 
@@ -39,6 +42,44 @@ TEST(ColumnChecks, TheLargerPressureActsOnAWallAtTheBase) {
   const CheckRow& forces = row_of(report, "hyd-forces", "top");
   EXPECT_NEAR(forces.effect, 1.35 * excess, 1e-3);
   EXPECT_NEAR(forces.place[1], 1.0, 1e-9);
+}
+
+/// The two layers with ground that is not saturated. The head below the clay, which is tight, rises
+/// from 1 m to `river` before the clay follows.
+ResultsReader dry_cover(const ScratchFolder& scratch, double river) {
+  std::ostringstream scene;
+  scene << "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
+        << "geometry.file = \"dry.geo\"\nmesh.size = 0.1\n"
+        << "liquid = { density = 1000.0, bulk_modulus = 2e9, viscosity = 1e-3 }\n"
+        << "initial.water_level = 1.0\ntime.end = 100.0\noutput.every = 100.0\n"
+        << soil("sand", 1e-3)
+        << soil("clay", 1e-10, "retention = { model = \"van-genuchten\", alpha = 2.0, n = 1.6 }\n")
+        << "[[boundary]]\non = \"bottom\"\nhead = [[0.0, 1.0], [100.0, " << river << "]]\n"
+        << "[[boundary]]\non = \"top\"\nseepage_face = true\n";
+  return run_programs(scratch, "dry", scene.str(), two_layers());
+}
+
+/// No water leaves through the tight cover, but that below it would rise above the ground by 1.5 m.
+TEST(ColumnChecks, TightAndDryGroundHeavesByTotalStresses) {
+  const ScratchFolder scratch;
+  const ResultsReader results = dry_cover(scratch, 3.5);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  const CheckRow& row = row_of(report, "hyd-stresses", "top");
+  EXPECT_NEAR(row.place[1], 1.0, 0.1);
+  EXPECT_NEAR(row.effect, 1.35 * (3.5 - row.place[1]) * water, 1e-3 * row.effect);
+  EXPECT_LT(*row.factor, 1.0);
+  EXPECT_THROW(require_limit_states(report), NumericalError);
+  EXPECT_THROW(row_of(report, "hyd-forces"), std::runtime_error);
+  EXPECT_NE(check_text(report).find("heave by EN 1997-1, 2.9b (water leaves through no ground)"),
+            std::string::npos);
+}
+
+/// Water below the ground that does not reach up to it lifts nothing.
+TEST(ColumnChecks, WaterThatStaysBelowTheGroundHasNoHeave) {
+  const ScratchFolder scratch;
+  const ResultsReader results = dry_cover(scratch, 1.9);
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  EXPECT_THROW(row_of(report, "hyd-stresses"), std::runtime_error);
 }
 
 }  // namespace column_checks_test
