@@ -77,6 +77,9 @@ class Section {
   VerticalLines<2> lines_;
 };
 
+/// A difference of head over the cover's thickness that is none.
+constexpr double negligible_head = 1e-6;
+
 /// The path of a pipe through a layer, level along x.
 struct PipePath {
   double from;  ///< x of the entry, m
@@ -214,6 +217,24 @@ BlanketSide side_of(const ResultsReader& results, const Section& section,
   return side;
 }
 
+/// Refuses toes in the wrong order: the river stands on the riverside.
+void expect_river_on_its_side(const ResultsReader& results, const Section& section,
+                              const BlanketSettings& settings) {
+  const std::vector<int> nodes = section.nodes_of(settings.entry);
+  if (nodes.empty()) return;
+  const auto x = [&](int node) { return section.mesh().nodes[node][0]; };
+  const auto [first, last] = std::ranges::minmax(nodes, {}, x);
+  const double entry = 0.5 * (x(first) + x(last));
+  const double river_to_land = settings.landside_toe - settings.riverside_toe;
+  const double middle = 0.5 * (settings.landside_toe + settings.riverside_toe);
+  if ((entry - middle) * river_to_land < 0.0) return;
+  refuse_setting(results, "check.blanket.landside_toe",
+                 short_text(settings.landside_toe) + " m, with the middle of the boundary \"" +
+                     settings.entry + "\" at x = " + short_text(entry) + " m",
+                 "the toe that is further from \"" + settings.entry + "\" than riverside_toe, " +
+                     short_text(settings.riverside_toe) + " m");
+}
+
 /// The section of the theory, by the layers below the landside toe. Throws InputError, naming the
 /// toe.
 BlanketSection blanket_section(const ResultsReader& results, const Section& section,
@@ -243,6 +264,13 @@ struct ToeHeads {
   double river = 0.0;     ///< above the ground at the toe, or the water on it, m
   double computed = 0.0;  ///< below the cover, likewise
 };
+
+std::string note_of(const ToeHeads& worst, double share) {
+  if (!(worst.river > 0.0)) return "no river acts: its head is not above the ground at the toe";
+  return "head below the cover at the toe: " + short_text(share * worst.river) +
+         " m by blanket theory, " + short_text(worst.computed) + " m computed, of " +
+         short_text(worst.river) + " m of the river";
+}
 
 }  // namespace
 
@@ -288,6 +316,7 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   const Section section(results, table);
   const Scene& scene = results.scene().scene;
   const std::string toe_key = table + ".landside_toe";
+  expect_river_on_its_side(results, section, settings);
   const GroundPlace<2> toe = section.ground_at(settings.landside_toe, toe_key);
   const auto line = section.lines().below(toe);
 
@@ -316,16 +345,14 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
     const double level = height(toe.position, scene.gravity);
     const double ground = toe.bears_water ? std::max(at(toe.element, toe.weights), level) : level;
     const double river = largest_head(section, head, settings.entry) - ground;
-    if (!(river > worst.river)) continue;
+    if (!(river > worst.river) || river < negligible_head * cover_at_toe) continue;
     worst = {results.times()[i], river, at(below.element, below.top_weights) - ground};
     row.note_factor(row.resistance / (share * river / cover_at_toe), worst.time);
   }
   row.time = worst.time;
   row.effect = share * worst.river / cover_at_toe;
   if (row.effect > 0.0) row.factor = row.resistance / row.effect;
-  row.note = "head below the cover at the toe: " + short_text(share * worst.river) +
-             " m by blanket theory, " + short_text(worst.computed) + " m computed, of " +
-             short_text(worst.river) + " m of the river" + sentences(broken_assumptions(blanket));
+  row.note = note_of(worst, share) + sentences(broken_assumptions(blanket));
   return {row};
 }
 

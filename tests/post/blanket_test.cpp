@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "post/check_scenes.hpp"
 #include "post/run_programs.hpp"
@@ -46,6 +47,36 @@ TEST(Blanket, SoilOfTheCoverBelowTheAquiferIsNoCover) {
       run_programs(scratch, "levee", levee_scene(blanket()), levee_on_deep_clay());
   const CheckReport report = check_run(results, results.scene().scene.check);
   EXPECT_NEAR(row_of(report, "blanket").effect, share_of_theory(1e-4, 1e-6) * 3.0 / 2.0, 1e-6);
+}
+
+/// The river stands on the ground of the landside toe then.
+TEST(Blanket, ToesInTheWrongOrderAreRefused) {
+  const ScratchFolder scratch;
+  const ResultsReader results =
+      run_programs(scratch, "levee", levee_scene(blanket()), levee_ground());
+  const CheckReport report =
+      check_run(results, check_settings(results, {"check.blanket.riverside_toe=20.0",
+                                                  "check.blanket.landside_toe=0.0"}));
+  ASSERT_EQ(report.refused.size(), 1U);
+  EXPECT_NE(report.refused[0].find("check.blanket.landside_toe: got 0 m, with the middle of the "
+                                   "boundary \"river\" at x = -50 m; expected the toe that is "
+                                   "further from \"river\" than riverside_toe, 20 m"),
+            std::string::npos)
+      << report.refused[0];
+}
+
+/// Water on the land that stands 1e-9 m below the river, as round-off can say.
+TEST(Blanket, RoundOffIsNoRiver) {
+  const ScratchFolder scratch;
+  std::string scene = levee_scene(blanket());
+  scene.replace(scene.find("head = 0.0"), 10, "head = 2.999999999");
+  const ResultsReader results = run_programs(scratch, "levee", scene, levee_ground());
+  const CheckReport report =
+      check_run(results, check_settings(results, {"check.blanket.landside_toe=25.0"}));
+  const CheckRow& row = row_of(report, "blanket");
+  EXPECT_EQ(row.effect, 0.0);
+  EXPECT_FALSE(row.factor.has_value());
+  EXPECT_TRUE(row.note.starts_with("no river acts")) << row.note;
 }
 
 }  // namespace blanket_test
