@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "checks/blanket_theory.hpp"
 #include "checks/sellmeijer.hpp"
@@ -148,6 +149,20 @@ double smallest_head(const ResultsReader& results, const Section& section,
   return smallest;
 }
 
+/// Conductivity of a layer that water flows along, between soils that conduct less, m/s: the flux
+/// is level, also where bedding is oblique.
+double conductivity_along_layer(const Scene& scene, const Soil& soil) {
+  const Vector<2> up = upward<2>(scene);
+  return soil.conductivity / soil.resistance_along(Vector<2>(up[1], -up[0]));
+}
+
+/// Conductivity of a cover that water flows across, m/s: the gradient is upright.
+double conductivity_across_layer(const Scene& scene, const Soil& soil) {
+  const double angle = soil.bedding * std::numbers::pi / 180.0;
+  const double cosine = upward<2>(scene).dot(Vector<2>(-std::sin(angle), std::cos(angle)));
+  return soil.conductivity * (1.0 + (soil.anisotropy() - 1.0) * cosine * cosine);
+}
+
 PipingLayer piping_layer(const ResultsReader& results, const BackwardErosionSettings& settings) {
   const Scene& scene = results.scene().scene;
   const Soil& soil = *scene.find_soil(settings.layer);
@@ -164,8 +179,8 @@ PipingLayer piping_layer(const ResultsReader& results, const BackwardErosionSett
   } else if (!std::isnan(graded)) {
     layer.uniformity = graded;
   }
-  layer.permeability =
-      soil.conductivity * scene.liquid.viscosity / (scene.liquid.density * conductivity_gravity);
+  layer.permeability = conductivity_along_layer(scene, soil) * scene.liquid.viscosity /
+                       (scene.liquid.density * conductivity_gravity);
   layer.relative_weight = soil.grain_density / scene.liquid.density - 1.0;
   layer.roundness = settings.roundness;
   layer.relative_density = settings.relative_density;
@@ -211,9 +226,7 @@ BlanketSide side_of(const ResultsReader& results, const Section& section,
   if (!(side.length > 0.0)) return side;
   const auto line = section.below(middle, key);
   side.cover_thickness = length_of<2>(blanket_layers(section, line, settings).cover);
-  const Soil& cover = *scene.find_soil(settings.cover);
-  side.cover_conductivity =
-      std::isnan(cover.conductivity_across) ? cover.conductivity : cover.conductivity_across;
+  side.cover_conductivity = conductivity_across_layer(scene, *scene.find_soil(settings.cover));
   return side;
 }
 
@@ -245,7 +258,9 @@ BlanketSection blanket_section(const ResultsReader& results, const Section& sect
   BlanketSection blanket;
   blanket.base = std::abs(settings.landside_toe - settings.riverside_toe);
   blanket.aquifer_thickness = length_of<2>(layers.aquifer);
-  blanket.aquifer_conductivity = results.scene().scene.find_soil(settings.aquifer)->conductivity;
+  const Scene& scene = results.scene().scene;
+  blanket.aquifer_conductivity =
+      conductivity_along_layer(scene, *scene.find_soil(settings.aquifer));
   blanket.riverside = side_of(results, section, settings, settings.riverside_toe, -towards_land,
                               settings.riverside, table + ".riverside_toe");
   blanket.landside = side_of(results, section, settings, settings.landside_toe, towards_land,

@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "checks/sellmeijer.hpp"
 #include "post/check_scenes.hpp"
 #include "post/run_programs.hpp"
 
@@ -77,6 +80,52 @@ TEST(Blanket, RoundOffIsNoRiver) {
   EXPECT_EQ(row.effect, 0.0);
   EXPECT_FALSE(row.factor.has_value());
   EXPECT_TRUE(row.note.starts_with("no river acts")) << row.note;
+}
+
+/// The scene with pairs of conductivity, and the angle of bedding of both soils.
+std::string bedded_scene(const std::string& sand, const std::string& clay, double bedding) {
+  std::string scene = levee_scene(
+      blanket() +
+      "check.backward_erosion = { layer = \"sand\", entry = \"river\", exit = \"land\", "
+      "length = 40.0, thickness = 10.0 }\n");
+  const std::string angle = "\nbedding = " + std::to_string(bedding);
+  scene.replace(scene.find("conductivity = 0.0001"), 21, "conductivity = " + sand + angle);
+  scene.replace(scene.find("conductivity = 1e-06"), 20, "conductivity = " + clay + angle);
+  return scene;
+}
+
+/// Bedding that stands upright, with both conductivities of each soil exchanged, is the same soil
+/// as level bedding.
+TEST(Blanket, TakesConductivityAlongTheAquiferAndAcrossTheCover) {
+  const std::vector<std::pair<std::string, double>> bedded{
+      {bedded_scene("[1e-4, 1e-5]", "[1e-5, 1e-6]", 0.0), 0.0},
+      {bedded_scene("[1e-5, 1e-4]", "[1e-6, 1e-5]", 90.0), 90.0}};
+  for (const auto& [scene, angle] : bedded) {
+    const ScratchFolder scratch;
+    const ResultsReader results = run_programs(scratch, "levee", scene, levee_ground());
+    const CheckReport report = check_run(results, results.scene().scene.check);
+    EXPECT_NEAR(row_of(report, "blanket").effect, share_of_theory(1e-4, 1e-6) * 3.0 / 2.0, 1e-6)
+        << angle;
+    const Gradation& sizes = results.scene().scene.find_soil("sand")->gradation;
+    const PipingLayer layer{.length = 40.0,
+                            .thickness = 10.0,
+                            .d70 = 1e-3 * sizes.size(70.0),
+                            .permeability = 1e-4 * 1e-3 / 9810.0,
+                            .relative_weight = 1.519649,
+                            .uniformity = sizes.size(60.0) / sizes.size(10.0)};
+    EXPECT_NEAR(row_of(report, "backward-erosion").resistance, critical_head(layer), 1e-9) << angle;
+  }
+}
+
+/// At 45 degrees a level flux needs (1/k_1 + 1/k_2)/2 of it as its gradient, and an upright
+/// gradient drives (k_1 + k_2)/2 of it upwards.
+TEST(Blanket, ObliqueBeddingHasBothMeans) {
+  const ScratchFolder scratch;
+  const ResultsReader results = run_programs(
+      scratch, "levee", bedded_scene("[1e-4, 1e-5]", "[1e-6, 1e-7]", 45.0), levee_ground());
+  const CheckReport report = check_run(results, results.scene().scene.check);
+  EXPECT_NEAR(row_of(report, "blanket").effect,
+              share_of_theory(2.0 / (1e4 + 1e5), 0.5 * (1e-6 + 1e-7)) * 3.0 / 2.0, 1e-6);
 }
 
 }  // namespace blanket_test
