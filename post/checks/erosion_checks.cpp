@@ -108,9 +108,11 @@ std::vector<CheckRow> threshold_checks(const ResultsReader& results) {
 }
 
 std::vector<CheckRow> loss_checks(const ResultsReader& results) {
+  const Scene& scene = results.scene().scene;
+  const bool forgets = scene.moves() && !scene.initial_from.empty();
   std::vector<CheckRow> rows;
   for (const DryMass& mass : dry_masses(results)) {
-    const double lost = 100.0 * (mass.start - mass.last) / mass.start;
+    const double lost = 100.0 * (mass.initial - mass.last) / mass.initial;
     CheckRow row{.mechanism = "loss", .where = mass.region, .clause = "Douglas and others (2019)"};
     row.time = mass.time;
     row.effect = lost;
@@ -118,6 +120,7 @@ std::vector<CheckRow> loss_checks(const ResultsReader& results) {
     row.note = lost < 0.0 ? "the soil has gained " + short_text(-lost) + " %"
                           : erosion_class(lost) + ": " + short_text(lost) + " %";
     row.note += " of its dry mass at the start";
+    if (forgets) row.note += " of this stage";
     rows.push_back(row);
   }
   return rows;

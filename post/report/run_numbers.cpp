@@ -27,6 +27,7 @@ std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
   std::string text = short_text(*numbers.fines_out) + " kg of fines";
   if (run.dimension() == 2) text += " per metre of thickness";
   text += " left the model";
+  if (!run.scene().scene.initial_from.empty()) text += " in this stage";
   if (numbers.fines_percent) {
     text += ", " + short_text(*numbers.fines_percent) +
             " % of the dry mass at the start of the soils that exchange fines";

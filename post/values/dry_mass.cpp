@@ -1,6 +1,22 @@
 #include "values/dry_mass.hpp"
 
 namespace suffuse {
+namespace {
+
+/// Dry mass of a soil with the porosity of the scene, which all stages have in common.
+double mass_by_scene(const ResultsReader& results, const Soil& soil) {
+  return with_mesh(results, [&](const auto& mesh) {
+    double sum = 0.0;
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      if (mesh.region_names[mesh.element_region[e]] != soil.region) continue;
+      const double porosity = soil.initial_porosity(element_centroid(mesh, e));
+      sum += element_volume(mesh, e) * (1.0 - porosity) * soil.grain_density;
+    }
+    return sum;
+  });
+}
+
+}  // namespace
 
 std::vector<DryMass> dry_masses(const ResultsReader& results) {
   const Table table = results.region_ledgers();
@@ -20,7 +36,11 @@ std::vector<DryMass> dry_masses(const ResultsReader& results) {
       if (is_first) mass.start = mass.last;
       is_first = false;
     }
-    if (mass.start > 0.0) masses.push_back(mass);
+    if (!(mass.start > 0.0)) continue;
+    const bool is_later_stage = !results.scene().scene.initial_from.empty();
+    mass.initial = is_later_stage && !results.scene().scene.moves() ? mass_by_scene(results, *soil)
+                                                                    : mass.start;
+    masses.push_back(mass);
   }
   return masses;
 }

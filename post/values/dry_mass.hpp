@@ -1,7 +1,7 @@
 #pragma once
 
-/// The dry mass of soils that exchange fines. Checks and reports give losses as shares of that at
-/// the start.
+/// The dry mass of soils that exchange fines. Checks give losses as shares of that before the first
+/// stage, reports what left in a run as a share of that at its start.
 
 #include <string>
 #include <vector>
@@ -13,9 +13,12 @@ namespace suffuse {
 /// Dry mass of one soil, kg (per metre of thickness in 2D).
 struct DryMass {
   std::string region;
-  double start = 0.0;
-  double last = 0.0;  ///< at `time`
-  double time = 0.0;  ///< s
+  /// Before the first stage, by the porosity of the scene; that at the start of this stage, if soil
+  /// moves.
+  double initial = 0.0;
+  double start = 0.0;  ///< of this run
+  double last = 0.0;   ///< at `time`
+  double time = 0.0;   ///< s
 };
 
 /// Masses of each soil of the run that exchanges fines and has mass. Throws FileError.

@@ -16,19 +16,23 @@ using testing::ScratchFolder;
 using testing::two_layers;
 
 /// Water rises through sand that erodes, and through clay above it, which has fines too but no law.
-ResultsReader two_soils(const ScratchFolder& scratch) {
+ResultsReader two_soils(const ScratchFolder& scratch, const std::string& name = "soils",
+                        const std::string& more = "initial.flow = \"steady\"\ntime.end = 10.0\n") {
   return run_programs(
-      scratch, "soils",
+      scratch, name,
       "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
-      "geometry.file = \"soils.geo\"\nmesh.size = 0.25\n"
-      "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
-      "initial.flow = \"steady\"\ntime.end = 10.0\noutput.every = 5.0\n"
-      "[soil.sand]\nporosity = 0.35\nskeleton_fraction = 0.55\ngrain_density = 2650.0\n"
-      "conductivity = 1e-1\nerosion = { law = \"constant\", rate = 1e-3 }\n"
-      "[soil.clay]\nporosity = 0.4\nskeleton_fraction = 0.4\ngrain_density = 2650.0\n"
-      "conductivity = 1e-1\n"
-      "[[boundary]]\non = \"bottom\"\nhead = 4.0\nconcentration = 0.0\n"
-      "[[boundary]]\non = \"top\"\nhead = 2.0\nconcentration = 0.0\n",
+      "geometry.file = \"" +
+          name +
+          ".geo\"\nmesh.size = 0.25\n"
+          "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
+          "output.every = 5.0\n" +
+          more +
+          "[soil.sand]\nporosity = 0.35\nskeleton_fraction = 0.55\ngrain_density = 2650.0\n"
+          "conductivity = 1e-1\nerosion = { law = \"constant\", rate = 1e-3 }\n"
+          "[soil.clay]\nporosity = 0.4\nskeleton_fraction = 0.4\ngrain_density = 2650.0\n"
+          "conductivity = 1e-1\n"
+          "[[boundary]]\non = \"bottom\"\nhead = 4.0\nconcentration = 0.0\n"
+          "[[boundary]]\non = \"top\"\nhead = 2.0\nconcentration = 0.0\n",
       two_layers());
 }
 
@@ -51,6 +55,24 @@ TEST(Losses, OfReportAndCheckAreSharesOfTheDryMassOfSoilsThatExchangeFines) {
   const std::string basis = " % of the dry mass at the start of the soils that exchange fines";
   EXPECT_NE(summary_text(results, numbers).find(basis), std::string::npos);
   EXPECT_NE(report_html({results}).find("<figcaption>Fines that left the model, in" + basis),
+            std::string::npos);
+}
+
+/// Two stages of 10 s lose as much as one run of 20 s.
+TEST(Losses, OfALaterStageCountFromTheFirst) {
+  const ScratchFolder scratch;
+  const std::string flow = "initial.flow = \"steady\"\n";
+  const std::vector<CheckRow> whole =
+      loss_checks(two_soils(scratch, "whole", flow + "time.end = 20.0\n"));
+  const double first =
+      loss_checks(two_soils(scratch, "first", flow + "time.end = 10.0\n")).at(0).effect;
+  const ResultsReader second =
+      two_soils(scratch, "second", "initial.from = \"first.results\"\ntime.end = 10.0\n");
+  const std::vector<CheckRow> rows = loss_checks(second);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_GT(first, 0.1);
+  EXPECT_NEAR(rows[0].effect, whole.at(0).effect, 1e-6 * rows[0].effect);
+  EXPECT_NE(summary_text(second, run_numbers(second)).find(" left the model in this stage, "),
             std::string::npos);
 }
 
