@@ -2,7 +2,7 @@
 """When the levee fails.
 
     study.py factors SOLVER STEM          prints the factor of safety through the flood, as CSV
-    study.py fall RESULTS                 prints the range of times, s, in which the soil falls after it first fails
+    study.py fall RESULTS                 prints the range of times, s, of the failure in which the soil moves most
     study.py moments PROGRAMS FOLDER      prints the moment at which it loses its equilibrium, by mesh and tolerance, as CSV, and
                                           that at which its factor with quadratic displacements falls to 1
 """
@@ -50,10 +50,16 @@ def fall_to_one(solver, stem, step):
 
 
 def fall(results):
-    failed = next((int(float(row["failure_time"])) for row in read_rows(f"{results}/history.csv") if float(row["failure_time"]) > 0), 0)
-    if not failed:
+    moved = {}  # least and largest displacement after each failure, m
+    for row in read_rows(f"{results}/history.csv"):
+        failed, displacement = float(row["failure_time"]), float(row["displacement_max"])
+        if failed > 0 and float(row["inertia"]) > 0:
+            least, most = moved.get(failed, (displacement, displacement))
+            moved[failed] = (min(least, displacement), max(most, displacement))
+    if not moved:
         sys.exit(f"{results}: nothing has failed")
-    print(f"{failed}:{failed + 4}")
+    first = int(max(moved, key=lambda failed: moved[failed][1] - moved[failed][0]))
+    print(f"{first}:{first + 4}")
 
 
 def moments(programs, folder):
