@@ -60,7 +60,7 @@ void warn_of_other_inertia(const Case<Dim>& c, const std::string& folder,
   if (had == make_plan(c, alone).flow.inertia) return;
   std::fprintf(stderr,
                "suffuse-solver: warning: time.inertia is %s with this time.end, and was %s with "
-               "time.end = %s s; the same throughout: run anew, without --resume\n",
+               "time.end = %s s; a run from the start, without --resume, has it one way\n",
                had ? "false" : "true", had ? "true" : "false",
                shown_number(earlier.document.scene.time.end).c_str());
 }
