@@ -48,6 +48,15 @@ class Flow : private PlausibilityBase<Dim> {
   using Base::warn;
   using Base::warnings_;
 
+  /// The key that gives the head of a boundary.
+  [[nodiscard]] std::string head_key(const BoundaryCondition& b) const {
+    return joined(b.key, given(joined(b.key, "file")) ? "file" : "head");
+  }
+  /// Longest distance of a head from a model of this size that is usual, m.
+  [[nodiscard]] static double usual_distance(double size) {
+    return std::max(farthest_head * size, least_far_head);
+  }
+
   [[nodiscard]] bool has_heads() const {
     return std::ranges::any_of(scene_.boundaries, [](const auto& b) { return b.head.has_value(); });
   }
@@ -76,7 +85,7 @@ class Flow : private PlausibilityBase<Dim> {
     if (given("gravity")) return;
     for (const BoundaryCondition& b : scene_.boundaries) {
       if (!b.head) continue;
-      warn(joined(b.key, given(joined(b.key, "file")) ? "file" : "head"),
+      warn(head_key(b),
            std::string("a head without gravity is a pressure in excess of the hydrostatic one; ") +
                (Dim == 2 ? "gravity = [0.0, -9.81] is usual, and gravity = [0.0, 0.0]"
                          : "gravity = [0.0, 0.0, -9.81] is usual, and gravity = [0.0, 0.0, 0.0]") +
@@ -88,8 +97,7 @@ class Flow : private PlausibilityBase<Dim> {
   void check_boundary(const BoundaryCondition& b) {
     const double end = scene_.time.end;
     if (b.head) {
-      check_head(joined(b.key, given(joined(b.key, "file")) ? "file" : "head"),
-                 b.head->range(0.0, end).second);
+      check_head(head_key(b), b.head->range(0.0, end).second);
       check_crest(b);
     }
     if (b.rain) check_rain(joined(b.key, "rain"), b.rain->range(0.0, end).second);
@@ -105,7 +113,7 @@ class Flow : private PlausibilityBase<Dim> {
     const bool falls = has_gravity(scene_.gravity);
     const auto [low, high] = falls ? this->heights() : std::pair(0.0, 0.0);
     const double size = falls ? high - low : extent(mesh_).maxCoeff();
-    const double usual = std::max(farthest_head * size, least_far_head);
+    const double usual = usual_distance(size);
     if (head - high <= usual) return;
     const std::string model =
         falls ? "the model lies between " + short_number(low) + " and " + short_number(high) + " m"
@@ -125,12 +133,11 @@ class Flow : private PlausibilityBase<Dim> {
       head = b.head->range(0.0, scene_.time.end).second;
     }
     const auto [low, high] = this->heights();
-    const double usual = std::max(farthest_head * (high - low), least_far_head);
-    if (!highest || low - head <= usual) return;
-    warn(joined(highest->key, given(joined(highest->key, "file")) ? "file" : "head"),
-         short_number(head) + " m, the highest head, and the model lies between " +
-             short_number(low) + " and " + short_number(high) +
-             " m: no water reaches it. Are heads and heights of one datum?");
+    if (!highest || low - head <= usual_distance(high - low)) return;
+    warn(head_key(*highest), short_number(head) +
+                                 " m, the highest head, and the model lies between " +
+                                 short_number(low) + " and " + short_number(high) +
+                                 " m: no water reaches it. Are heads and heights of one datum?");
   }
 
   /// Water that stands on a slope and is higher than the model would flow over it, to where water
@@ -146,9 +153,9 @@ class Flow : private PlausibilityBase<Dim> {
     const double head = b.head->range(0.0, scene_.time.end).second;
     const double crest = this->heights().second;
     if (head <= crest + crest_margin * this->height_of_model()) return;
-    warn(joined(b.key, given(joined(b.key, "file")) ? "file" : "head"),
-         short_number(head) + " m, and the highest ground is at " + short_number(crest) +
-             " m: water would flow over it, which no result takes into account");
+    warn(head_key(b), short_number(head) + " m, and the highest ground is at " +
+                          short_number(crest) +
+                          " m: water would flow over it, which no result takes into account");
   }
 
   /// Whether a boundary has a face that is neither level nor upright.

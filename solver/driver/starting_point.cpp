@@ -49,7 +49,7 @@ FoundRestart find_restart(const Case<Dim>& c, const std::string& folder,
 }
 
 /// Warns if the run in `folder` has inertia of the liquid and this case has not, or the reverse:
-/// by default this depends on `time.end`.
+/// a scene without `time.inertia` has it where it matters for a run as long as `time.end`.
 template <int Dim>
 void warn_of_other_inertia(const Case<Dim>& c, const std::string& folder,
                            const SolverOptions& options) {
