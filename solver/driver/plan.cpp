@@ -187,24 +187,25 @@ void find_speed_that_drag_follows(const Case<Dim>& c, Plan& plan) {
   const Scene& scene = c.document.scene;
   const bool inertia = scene.time.scheme == FlowScheme::explicit_nodal || plan.flow.inertia;
   if (!inertia || scene.time.mass_scaling > 1.0) return;
-  plan.speed_that_drag_follows = extent(c.mesh).norm() / longest_relaxation(scene);
+  plan.row_limits.speed_that_drag_follows = extent(c.mesh).norm() / longest_relaxation(scene);
 }
 
-/// Time in which pressures diffuse through the whole model with the smallest diffusivity K k / (rho
-/// n g) of a soil, and drag stops the liquid, both to exp(-11) = 2e-5, s.
 template <int Dim>
-double settling_time(const Case<Dim>& c) {
+void find_watched_motion(const Case<Dim>& c, Plan& plan) {
+  constexpr double share = 0.01;  // of the height of the soil that can yield
   const Scene& scene = c.document.scene;
-  constexpr double folds = 11.0;
-  constexpr double pi = 3.14159265358979;
-  const double length = 2.0 / pi * extent(c.mesh).maxCoeff();
-  const double squared_wave_speed = scene.liquid.bulk_modulus / scene.liquid.density;
-  const double relaxation = longest_relaxation(scene);
-  double slowest = relaxation;
-  for (const Soil& soil : scene.soils) {
-    slowest = std::min(slowest, soil.conductivity / (soil.porosity * conductivity_gravity));
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (int e = 0; e < c.mesh.element_count(); ++e) {
+    const Soil* soil = scene.find_soil(c.mesh.region_names[c.mesh.element_region[e]]);
+    if (!soil || !soil->skeleton.moves() || !soil->skeleton.law->yields()) continue;
+    for (const int i : c.mesh.elements[e]) {
+      const double z = height(c.mesh.nodes[i], scene.gravity);
+      lowest = std::min(lowest, z);
+      highest = std::max(highest, z);
+    }
   }
-  return folds * (length * length / (slowest * squared_wave_speed) + relaxation);
+  if (highest > lowest) plan.row_limits.watched_motion = share * (highest - lowest);
 }
 
 void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
@@ -457,8 +458,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   } else {
     refuse_ergun_beside_switching_faces(c, conditions);
     plan_implicit_step(scene, plan);
-    if (!plan.flow.inertia) plan.obtuse_elements = obtuse_elements(grid);
-    plan.settling_time = settling_time(c);
+    if (!plan.flow.inertia) plan.row_limits.obtuse_elements = obtuse_elements(grid);
     warn_of_free_water_with_inertia(c, plan);
   }
 
@@ -466,6 +466,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   warn_of_mass_scaling(scene, plan);
   warn_of_pressures_on_slopes(c, grid, conditions, plan);
   find_speed_that_drag_follows(c, plan);
+  find_watched_motion(c, plan);
   describe(scene, c.mesh.region_names, options, plan);
   if constexpr (Dim == 3) {
     plan.sentences.push_back(

@@ -3,13 +3,12 @@
 /// The plan of a run: its passes, those that are skipped, and its steps. It is made once from the
 /// scene, before the run.
 
-#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "driver/row_checks.hpp"
 #include "explicit/stability_limit.hpp"
 #include "formulation/two_phase_model.hpp"
 
@@ -24,14 +23,7 @@ struct SolverOptions {
 
 struct Plan : ModelOptions {
   StabilityLimit limit;  ///< explicit only: smallest limit expected in the run
-  /// Only with inertia: speed above which liquid crosses the model before drag makes it steady,
-  /// m/s. The equations lack the convected momentum of such liquid.
-  double speed_that_drag_follows = std::numeric_limits<double>::infinity();
-  /// Implicit only: time after which a flow from rest is steady to about 1e-5, s.
-  double settling_time = 0.0;
-  /// Implicit only, without inertia: number of elements with an obtuse angle, which can cause
-  /// pressures outside the range of the boundaries.
-  std::optional<int> obtuse_elements;
+  RowLimits row_limits;
   std::vector<std::string> sentences;  ///< what runs, what is skipped, and why
   std::vector<std::string> warnings;
 };

@@ -1,6 +1,7 @@
 #include "driver/row_checks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -30,15 +31,21 @@ std::string rounded_value(double value) {
 
 std::vector<std::string> RowChecks::check(const HistoryRow& row) {
   check_finite(row);
-  std::vector<std::string> warnings = {check_compression(row),
-                                       check_mass_scaling(row.speed_max),
-                                       check_momentum(row.speed_max),
-                                       check_fines_weight(row),
-                                       check_packing(row),
-                                       check_volume_defect(row),
-                                       check_overshoot(row),
-                                       check_failure(row)};
-  std::erase(warnings, "");
+  const std::array<std::string, kinds> once = {check_compression(row),
+                                               check_mass_scaling(row.speed_max),
+                                               check_momentum(row.speed_max),
+                                               check_fines_weight(row),
+                                               check_packing(row),
+                                               check_volume_defect(row),
+                                               check_overshoot(row),
+                                               check_creep(row)};
+  std::vector<std::string> warnings;
+  for (std::size_t k = 0; k < kinds; ++k) {
+    if (once[k].empty() || is_said_[k]) continue;
+    is_said_[k] = true;
+    warnings.push_back(once[k]);
+  }
+  if (const std::string text = check_failure(row); !text.empty()) warnings.push_back(text);
   return warnings;
 }
 
@@ -56,8 +63,7 @@ std::string RowChecks::check_compression(const HistoryRow& row) {
     throw NumericalError(message.str() +
                          ": water cannot be compressed like that; look at the boundary conditions");
   }
-  if (pressure < small * modulus || compression_warned_) return "";
-  compression_warned_ = true;
+  if (pressure < small * modulus) return "";
   return message.str() + ": the liquid is no longer weakly compressible";
 }
 
@@ -66,8 +72,7 @@ std::string RowChecks::check_compression(const HistoryRow& row) {
 std::string RowChecks::check_mass_scaling(double speed) {
   const double scaling = scene_.time.mass_scaling;
   const double wave = std::sqrt(scene_.liquid.bulk_modulus / scene_.liquid.density);
-  if (scaling_warned_ || scaling <= 1.0 || speed * std::sqrt(scaling) <= 0.1 * wave) return "";
-  scaling_warned_ = true;
+  if (scaling <= 1.0 || speed * std::sqrt(scaling) <= 0.1 * wave) return "";
   std::ostringstream message;
   message << "mass_scaling = " << scaling << " slows the pressure wave to "
           << wave / std::sqrt(scaling) << " m/s, less than ten times the flow's " << speed
@@ -78,10 +83,9 @@ std::string RowChecks::check_mass_scaling(double speed) {
 /// The model convects pressure but not momentum. Waves between an inlet and an outlet then grow by
 /// the factor 1 + v / c with every reflection, unless drag damps them as much.
 std::string RowChecks::check_momentum(double speed) {
-  if (momentum_warned_ || !(speed > speed_that_drag_follows_)) return "";
-  momentum_warned_ = true;
+  if (!(speed > limits_.speed_that_drag_follows)) return "";
   std::ostringstream message;
-  message << "the liquid reaches " << speed << " m/s; above " << speed_that_drag_follows_
+  message << "the liquid reaches " << speed << " m/s; above " << limits_.speed_that_drag_follows
           << " m/s it passes the model before drag brings it to its speed, and the momentum that "
              "it carries along is not in the equations: pressures and fluxes are not to be "
              "trusted";
@@ -93,9 +97,8 @@ std::string RowChecks::check_momentum(double speed) {
 std::string RowChecks::check_fines_weight(const HistoryRow& row) {
   constexpr double most_of_it = 0.5;
   constexpr double noticed = 1e-3;  // concentration; the density changes by a per mille
-  if (weight_warned_ || !(row.fines_weight_share > most_of_it)) return "";
+  if (!(row.fines_weight_share > most_of_it)) return "";
   if (!(row.concentration_max > noticed)) return "";
-  weight_warned_ = true;
   std::ostringstream message;
   message
       << "the weight of fluidised fines drives the flow more than the boundaries do: "
@@ -111,8 +114,7 @@ std::string RowChecks::check_fines_weight(const HistoryRow& row) {
 /// Grains as dense as in a packing lock, and the liquid cannot flow.
 std::string RowChecks::check_packing(const HistoryRow& row) {
   constexpr double packing = 0.62;  // the usual c_m of Krieger and Dougherty
-  if (packing_warned_ || !(row.concentration_max > packing)) return "";
-  packing_warned_ = true;
+  if (!(row.concentration_max > packing)) return "";
   std::ostringstream message;
   message << "the liquid holds " << rounded_value(row.concentration_max)
           << " of its volume in fines in " << row.concentration_max_at << " at t = " << row.t
@@ -130,8 +132,7 @@ std::string RowChecks::check_volume_defect(const HistoryRow& row) {
   constexpr double deviations = 5.0;
   const double points = scene_.points.liquid_per_element;
   const double expected = std::max(1.0, deviations / std::sqrt(points));
-  if (defect_warned_ || !(row.volume_defect > expected)) return "";
-  defect_warned_ = true;
+  if (!(row.volume_defect > expected)) return "";
   std::ostringstream message;
   message << "liquid points have " << rounded_value(1.0 + row.volume_defect)
           << " times the volume of the pores in " << row.volume_defect_at << " at t = " << row.t
@@ -147,17 +148,17 @@ std::string RowChecks::check_volume_defect(const HistoryRow& row) {
 std::string RowChecks::check_overshoot(const HistoryRow& row) {
   constexpr double noticed = 0.01;  // of the range of pressures
   const bool second_order = scene_.time.stepping == TimeStepping::second_order;
-  if (overshoot_warned_ || !obtuse_elements_ || row.pressure_overshoot < noticed) return "";
-  if (*obtuse_elements_ == 0 && !second_order) return "";
-  overshoot_warned_ = true;
+  if (!limits_.obtuse_elements || row.pressure_overshoot < noticed) return "";
+  if (*limits_.obtuse_elements == 0 && !second_order) return "";
   std::ostringstream message;
   message.precision(3);
   message << "pressures lie outside those of boundaries and start, by "
           << 100.0 * row.pressure_overshoot << " % of their range at t = " << row.t
           << " s (pressure_overshoot); volumes and masses balance all the same.";
-  if (*obtuse_elements_ > 0) {
+  if (*limits_.obtuse_elements > 0) {
     message
-        << " Obtuse angles can do so, above all where conductivities differ: " << *obtuse_elements_
+        << " Obtuse angles can do so, above all where conductivities differ: "
+        << *limits_.obtuse_elements
         << " elements have one; mesh.structure = \"free\", or \"regular\" for a column, makes few "
            "or none.";
   }
@@ -165,6 +166,21 @@ std::string RowChecks::check_overshoot(const HistoryRow& row) {
     message << " Long steps of second order can do so: time.stepping = \"monotone\", or a shorter "
                "time.step.";
   }
+  return message.str();
+}
+
+/// Soil that loses strength slowly comes to a new equilibrium with each small motion. Whether and
+/// when no equilibrium is found depends on mesh and steps.
+std::string RowChecks::check_creep(const HistoryRow& row) {
+  if (row.failure_time > 0.0 || row.inertia > 0.0 ||
+      !(row.displacement_max > limits_.watched_motion)) {
+    return "";
+  }
+  std::ostringstream message;
+  message << "the soil has moved by " << rounded_value(row.displacement_max)
+          << " m in equilibrium by t = " << row.t
+          << " s, more than 1 % of its height: it may slide slowly, and a moment at which it fails "
+             "depends on the mesh; --strength-reduction --state finds its factor of safety";
   return message.str();
 }
 

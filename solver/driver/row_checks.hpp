@@ -2,6 +2,8 @@
 
 /// Checks whether the values of each row of the history are within the validity of the model.
 
+#include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,26 +14,32 @@
 
 namespace suffuse {
 
+/// Limits for the values of rows that depend on the case.
+struct RowLimits {
+  /// Only with inertia: speed above which liquid crosses the model before drag makes it steady,
+  /// m/s. The equations lack the convected momentum of such liquid.
+  double speed_that_drag_follows = std::numeric_limits<double>::infinity();
+  /// Only for soil that can yield: motion in equilibrium above which there is a warning, m.
+  double watched_motion = std::numeric_limits<double>::infinity();
+  /// Implicit only, without inertia: number of elements with an obtuse angle, which can cause
+  /// pressures outside the range of the boundaries.
+  std::optional<int> obtuse_elements = {};
+};
+
 class RowChecks {
  public:
-  /// Keeps a reference to the scene. `speed_that_drag_follows`, m/s, and `obtuse_elements` come
-  /// from the plan.
-  RowChecks(const Scene& scene, double speed_that_drag_follows,
-            std::optional<int> obtuse_elements = {})
-      : scene_(scene),
-        speed_that_drag_follows_(speed_that_drag_follows),
-        obtuse_elements_(obtuse_elements) {}
+  /// Keeps a reference to the scene.
+  explicit RowChecks(const Scene& scene, RowLimits limits = {}) : scene_(scene), limits_(limits) {}
 
   /// Returns new warnings; each is given once in a run, that of a failure once per failure. Throws
   /// NumericalError if an entry is not finite or a pressure exceeds the liquid's bulk modulus.
   std::vector<std::string> check(const HistoryRow& row);
 
-  void archive(StateArchive& archive) {
-    archive(scaling_warned_, momentum_warned_, compression_warned_, weight_warned_, defect_warned_,
-            overshoot_warned_, packing_warned_, failure_warned_, falls_);
-  }
+  void archive(StateArchive& archive) { archive(is_said_, failure_warned_, falls_); }
 
  private:
+  static constexpr std::size_t kinds = 8;
+
   std::string check_compression(const HistoryRow& row);
   std::string check_mass_scaling(double speed);
   std::string check_momentum(double speed);
@@ -39,20 +47,14 @@ class RowChecks {
   std::string check_packing(const HistoryRow& row);
   std::string check_volume_defect(const HistoryRow& row);
   std::string check_overshoot(const HistoryRow& row);
+  std::string check_creep(const HistoryRow& row);
   std::string check_failure(const HistoryRow& row);
 
   const Scene& scene_;
-  double speed_that_drag_follows_;
-  std::optional<int> obtuse_elements_;
-  bool scaling_warned_ = false;
-  bool momentum_warned_ = false;
-  bool compression_warned_ = false;
-  bool weight_warned_ = false;
-  bool defect_warned_ = false;
-  bool overshoot_warned_ = false;
-  bool packing_warned_ = false;
-  double failure_warned_ = 0.0;  ///< time of the last reported failure, s
-  bool falls_ = false;           ///< soil that has failed was not at rest yet in the last row
+  RowLimits limits_;
+  std::array<char, kinds> is_said_ = {};  ///< the warnings that are given once
+  double failure_warned_ = 0.0;           ///< time of the last reported failure, s
+  bool falls_ = false;  ///< soil that has failed was not at rest yet in the last row
 };
 
 }  // namespace suffuse

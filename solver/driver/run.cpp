@@ -73,7 +73,7 @@ class Run final : public OutputSink<Dim> {
         loop_(local_case_ ? *local_case_ : case_,
               options_of(plan, part_, starting_point.from.has_value()),
               source ? &source->state : nullptr),
-        notes_{.checks = {case_.document.scene, plan.speed_that_drag_follows, plan.obtuse_elements},
+        notes_{.checks = RowChecks(case_.document.scene, plan.row_limits),
                .origin = source ? source->sentences : std::vector<std::string>()},
         progress_(starting_point.from ? starting_point.from->time : 0.0,
                   case_.document.scene.time.end, starts_from_rest(starting_point),

@@ -38,7 +38,7 @@ EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, const SolverO
   const OwnPart<Dim> taken = own_part(c, options.ranks);
   plan.part = taken.part;
   RunLoop<Dim> loop(taken.own ? *taken.own : c, plan);
-  RunNotes notes{.checks = {c.document.scene, plan.speed_that_drag_follows}};
+  RunNotes notes{.checks = RowChecks(c.document.scene, plan.row_limits)};
   StateArchive state(std::move(point.state), loop.model().shared_state());
   state(loop, notes);
   state.finish();

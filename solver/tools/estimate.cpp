@@ -113,7 +113,7 @@ class Trial final : public OutputSink<Dim> {
         budget_(budget),
         deadline_(budget.patience),
         loop_(c, plan, earlier),
-        checks_(c.document.scene, plan.speed_that_drag_follows) {
+        checks_(c.document.scene, plan.row_limits) {
     try {
       files_.emplace(c);
     } catch (const FileError&) {

@@ -272,7 +272,8 @@ TEST(Plan, RepeatsTheWarningsOfTheMesher) {
 TEST(Plan, KnowsTheSpeedThatDragFollows) {
   Scene scene = fluxes(0.01, -0.01);
   const auto speed = [&] {
-    return make_plan(model::make_case(model::column_mesh(4, 4), scene), {}).speed_that_drag_follows;
+    return make_plan(model::make_case(model::column_mesh(4, 4), scene), {})
+        .row_limits.speed_that_drag_follows;
   };
   // sqrt(2) m in 2e-2 / (0.3 * 9.81) s
   EXPECT_NEAR(speed(), std::sqrt(2.0) * 0.3 * 9.81 / 2e-2, 1e-9);
@@ -280,6 +281,23 @@ TEST(Plan, KnowsTheSpeedThatDragFollows) {
   EXPECT_TRUE(std::isinf(speed())) << "inertia is left out";
   scene.time.inertia = true;
   EXPECT_FALSE(std::isinf(speed()));
+}
+
+TEST(Plan, WatchesTheMotionOfSoilThatCanYield) {
+  Scene scene = fluxes(0.01, -0.01);
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.gravity = {0.0, -9.81, 0.0};
+  const auto watched = [&](double lower) {
+    Case<2> c = model::make_case(model::column_mesh(4, 4), scene);
+    for (Vector<2>& x : c.mesh.nodes) x *= lower;
+    return make_plan(c, {}).row_limits.watched_motion;
+  };
+  EXPECT_TRUE(std::isinf(watched(1.0))) << "rigid";
+  scene.soils[0].skeleton.law = skeleton_law("elastic");
+  EXPECT_TRUE(std::isinf(watched(1.0)));
+  scene.soils[0].skeleton.law = skeleton_law("mohr-coulomb");
+  EXPECT_NEAR(watched(1.0), 0.01, 1e-15);
+  EXPECT_NEAR(watched(0.5), 0.005, 1e-15);
 }
 
 TEST(Plan, TakesNineTenthsOfTheLimitWithoutAStep) {

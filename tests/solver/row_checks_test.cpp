@@ -4,14 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "solver/double_point_case.hpp"
 
 namespace suffuse {
 namespace row_checks_test {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 class Rows : public testing::Test {
  protected:
@@ -35,7 +31,7 @@ class Rows : public testing::Test {
   }
 
   Scene scene_ = model::paper_scene();
-  RowChecks checks_{scene_, infinite};
+  RowChecks checks_{scene_};
 };
 
 /// The warning names place and time and comes once; a liquid that still flows raises none.
@@ -70,7 +66,7 @@ TEST_F(Rows, FewerPointsAreLessEven) {
   EXPECT_EQ(warning(with_defect(4.9)), "");
   EXPECT_NE(warning(with_defect(5.1)), "");
   scene_.points.liquid_per_element = 400;
-  RowChecks many(scene_, infinite);
+  RowChecks many(scene_);
   EXPECT_TRUE(many.check(with_defect(0.99)).empty());
   EXPECT_FALSE(many.check(with_defect(1.01)).empty());
 }
@@ -106,10 +102,33 @@ TEST_F(Rows, SoilThatFailsAndComesToRestIsToldOf) {
   EXPECT_EQ(warning(row(7.0, 6.0, 0.0)),
             "the soil has lost its equilibrium at t = 6" + from_there + ", by t = 7 s");
   EXPECT_EQ(warning(row(8.0, 6.0, 0.0)), "");
-  RowChecks of_column(scene_, infinite);  // it falls from the start on
+  RowChecks of_column(scene_);  // it falls from the start on
   EXPECT_TRUE(of_column.check(row(0.0, 0.0, 0.0)).empty());
   EXPECT_TRUE(of_column.check(row(1.0, 0.0, 0.4)).empty());
   EXPECT_EQ(of_column.check(row(2.0, 0.0, 0.0)).size(), 1U);
+}
+
+/// Motion is watched in equilibrium only: a run tells of soil that fails.
+TEST_F(Rows, SoilThatMovesFarInEquilibriumMaySlide) {
+  RowChecks levee(scene_, {.watched_motion = 0.045});  // of soil 4.5 m high
+  HistoryRow row;
+  row.t = 17500.0;
+  row.displacement_max = 0.0449;
+  EXPECT_TRUE(levee.check(row).empty());
+  row.displacement_max = 0.0697;
+  const std::vector<std::string> warnings = levee.check(row);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0],
+            "the soil has moved by 0.07 m in equilibrium by t = 17500 s, more than 1 % of its "
+            "height: it may slide slowly, and a moment at which it fails depends on the mesh; "
+            "--strength-reduction --state finds its factor of safety");
+  EXPECT_TRUE(levee.check(row).empty());
+  RowChecks failed(scene_, {.watched_motion = 0.045});
+  row.failure_time = 17000.0;
+  row.inertia = 0.1;
+  ASSERT_EQ(failed.check(row).size(), 1U);
+  row.inertia = 0.0;
+  ASSERT_EQ(failed.check(row).size(), 1U);
 }
 
 TEST_F(Rows, WhatWasSaidIsRememberedAcrossAResume) {
@@ -118,7 +137,7 @@ TEST_F(Rows, WhatWasSaidIsRememberedAcrossAResume) {
   StateArchive saved;
   checks_.archive(saved);
   StateArchive stored(saved.finish());
-  RowChecks resumed(scene_, infinite);
+  RowChecks resumed(scene_);
   resumed.archive(stored);
   EXPECT_TRUE(resumed.check(with_defect(30.0)).empty());
   EXPECT_TRUE(resumed.check(with_fines(0.9, 0.1)).empty());

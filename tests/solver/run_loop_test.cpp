@@ -90,7 +90,7 @@ TEST(RowChecks, RefuseWhatTheEquationsDoNotDescribe) {
   scene.liquid.density = 1000.0;
   scene.liquid.bulk_modulus = 4e6;  // waves of 63 m/s
   scene.time.mass_scaling = 1.0;
-  RowChecks checks(scene, 5.0);
+  RowChecks checks(scene, {.speed_that_drag_follows = 5.0});
   HistoryRow row;
   row.pressure_max = 3e5;
   row.speed_max = 4.0;
@@ -113,7 +113,7 @@ TEST(RowChecks, SayWhatCanTakePressuresOutOfTheirBounds) {
   scene.liquid.density = 1000.0;
   scene.liquid.bulk_modulus = 4e6;
   const auto warning = [&](double overshoot, std::optional<int> obtuse) {
-    RowChecks checks(scene, 5.0, obtuse);
+    RowChecks checks(scene, {.speed_that_drag_follows = 5.0, .obtuse_elements = obtuse});
     HistoryRow row;
     row.t = 2.0;
     row.pressure_overshoot = overshoot;

@@ -74,8 +74,7 @@ std::vector<std::string> warnings_of_layers(const std::function<Vector<2>(const 
   scene.time.end = 1.0;
   scene.boundaries = {model::pressure_on("top", 6000.0), model::pressure_on("bottom", 0.0)};
   model::ModelRun run(model::make_case(mesh, scene));
-  RowChecks checks(run.input().document.scene, run.plan().speed_that_drag_follows,
-                   run.plan().obtuse_elements);
+  RowChecks checks(run.input().document.scene, run.plan().row_limits);
   std::vector<std::string> warnings;
   for (const auto& state : run.run({0.01, 0.1, 0.5, 1.0}).states) {
     for (const std::string& warning : checks.check(state.history)) warnings.push_back(warning);

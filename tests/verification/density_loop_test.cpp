@@ -104,7 +104,7 @@ TEST_F(SlowSeepage, WithWeightLosesTwiceAsMuchAndSaysSo) {
   EXPECT_NEAR(states[0].ledger.eroded / 135.0, 0.127, 0.002);
   EXPECT_NEAR(states[1].ledger.eroded / 135.0, 0.315, 0.004);
   EXPECT_GT(states[1].history.fines_weight_share, 0.5);
-  RowChecks checks(run.input().document.scene, std::numeric_limits<double>::infinity());
+  RowChecks checks(run.input().document.scene);
   ASSERT_EQ(checks.check(states[1].history).size(), 1U);
 }
 

@@ -3,8 +3,8 @@
 
     study.py factors SOLVER STEM          prints the factor of safety through the flood, as CSV
     study.py fall RESULTS                 prints the range of times, s, of the failure in which the soil moves most
-    study.py moments PROGRAMS FOLDER      prints the moment at which it loses its equilibrium, by mesh and tolerance, as CSV, and
-                                          that at which its factor with quadratic displacements falls to 1
+    study.py moments PROGRAMS FOLDER      prints by mesh and tolerance, as CSV, when it has moved by 5 cm, when it loses its equilibrium,
+                                          and when its factor with quadratic displacements falls to 1
 """
 
 import csv
@@ -49,6 +49,17 @@ def fall_to_one(solver, stem, step):
     return round((low + above / (above - below)) * step)
 
 
+def time_of(displacement, results):
+    """When the largest displacement, m, passes a value, s, between rows of the history; empty if it does not."""
+    before = None
+    for row in read_rows(f"{results}/history.csv"):
+        time, moved = float(row["t"]), float(row["displacement_max"])
+        if moved >= displacement:
+            return round(before[0] + (displacement - before[1]) / (moved - before[1]) * (time - before[0]))
+        before = time, moved
+    return ""
+
+
 def fall(results):
     moved = {}  # least and largest displacement after each failure, m
     for row in read_rows(f"{results}/history.csv"):
@@ -63,7 +74,7 @@ def fall(results):
 
 
 def moments(programs, folder):
-    print("size,tolerance,elements,steps,wall_seconds,failure_time,factor_falls_to_1", flush=True)
+    print("size,tolerance,elements,steps,wall_seconds,moved_by_5_cm,failure_time,factor_falls_to_1", flush=True)
     for size, tolerance in (("1", "1e-3"), ("0.7", "1e-3"), ("0.5", "1e-3"), ("0.35", "1e-3"), ("0.25", "1e-3"), ("0.5", "1e-2"), ("0.5", "3e-4")):
         stem = f"{folder}/size-{size}-tolerance-{tolerance}"
         keys = ["name=slide", f"mesh.size={size}", f"time.tolerance={tolerance}", "time.failure=stop", "time.end=40000.0",
@@ -74,7 +85,7 @@ def moments(programs, folder):
         failed = read_rows(f"{stem}.results/history.csv")[-1]["t"] if code else ""
         run = run_json(f"{stem}.results")
         fell = fall_to_one(f"{programs}/suffuse-solver", stem, 500)
-        print(size, tolerance, run["elements"], run["steps"], run["wall_seconds"], failed, fell, sep=",", flush=True)
+        print(size, tolerance, run["elements"], run["steps"], run["wall_seconds"], time_of(0.05, f"{stem}.results"), failed, fell, sep=",", flush=True)
 
 
 if __name__ == "__main__":

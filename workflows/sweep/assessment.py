@@ -9,7 +9,7 @@ import math
 import os
 import re
 
-from common import cell, number_of, read, read_rows, wrong
+from common import cell, number_of, read, read_rows, run_json, wrong
 
 # Mechanisms that depend on the water level, in the order of tables and charts. Other checks, such as those of filters,
 # follow by their names.
@@ -20,8 +20,8 @@ STATES = ["start", "last", "all", "checks"]
 # What the programs say where soil cannot bear its loads; docs/use/troubleshooting.md has the messages.
 SOIL_FAILS = re.compile(r"no equilibrium|lost its equilibrium|lose its equilibrium|soil that fails|the soil fails|"
                         r"(loaded surface|solid point \d+) moves .*far outside the mesh")
-# Soil that moves in equilibrium by more than this share of its height may slide without an end. Without a height it is this length, m.
-CREEP, CREEP_LENGTH = 0.01, 0.1
+# The solver's warning of soil that may slide slowly.
+CREEPS = re.compile(r"the soil has moved by .* in equilibrium")
 NO_STRENGTH = "got no soil with a strength"
 
 
@@ -115,25 +115,11 @@ def followed_failure(stem):
     return f"the soil {when}, and moved by up to {most_of(rows, 'displacement_max'):.3g} m"
 
 
-def height_of_soil(stem):
-    """From the lowest to the highest node of the elements with soil, or None where the case cannot be read."""
-    try:
-        import h5py  # only here: sweeps without it find all but this
-        with h5py.File(stem.with_name(f"{stem.name}.case.h5")) as case:
-            elements = case["mesh/elements"][()][case["solid_points/element"][()]]
-            heights = case["mesh/nodes"][()][:, -1][elements]
-            return float(heights.max() - heights.min())
-    except (ImportError, OSError, KeyError, ValueError):
-        return None
-
-
 def creep_of(stem):
-    """By how much the soil of a run moved, m, where that is much for soil in equilibrium; 0 where it is not, or where soil failed."""
-    moved = most_of(history_of(stem), "displacement_max")
-    if moved == 0.0 or followed_failure(stem):
-        return 0.0
-    height = height_of_soil(stem)
-    return moved if moved > (CREEP_LENGTH if height is None else CREEP * height) else 0.0
+    """By how much the soil of a run moved, m, where the solver warns that this is much for soil in equilibrium; 0 where it does not."""
+    results = stem.with_name(f"{stem.name}.results")
+    creeps = (results / "run.json").is_file() and any(CREEPS.match(text) for text in run_json(results).get("warnings", []))
+    return most_of(history_of(stem), "displacement_max") if creeps and not followed_failure(stem) else 0.0
 
 
 def said_of_creep(amount):
