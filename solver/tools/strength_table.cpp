@@ -371,7 +371,8 @@ class StrengthTable {
     return "what fails moves most in " + soil_at(state, static_cast<int>(most - moved.begin())) +
            ", and half as far or farther in " + short_text(volume) + " m3 (" +
            std::to_string(elements.size()) + (elements.size() == 1 ? " element" : " elements") +
-           (elements.size() < few_elements ? ", so few that a finer mesh may give a lower factor)"
+           (elements.size() < few_elements ? ", so few that a finer mesh may give a "
+                                             "lower factor; --deeper leaves such bodies out)"
                                            : ")");
   }
 
