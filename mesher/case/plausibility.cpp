@@ -305,8 +305,8 @@ template <int Dim>
 std::vector<std::string> plausibility_warnings(const SceneDocument& document,
                                                const Mesh<Dim>& mesh) {
   std::vector<std::string> warnings = Plausibility<Dim>(document, mesh).unusual();
-  for (const auto& part :
-       {time_warnings<Dim>, flow_warnings<Dim>, soil_warnings<Dim>, idle_key_warnings<Dim>}) {
+  for (const auto& part : {time_warnings<Dim>, flow_warnings<Dim>, soil_warnings<Dim>,
+                           load_warnings<Dim>, idle_key_warnings<Dim>}) {
     const std::vector<std::string> more = part(document, mesh);
     warnings.insert(warnings.end(), more.begin(), more.end());
   }

@@ -75,6 +75,10 @@ std::vector<std::string> flow_warnings(const SceneDocument& document, const Mesh
 template <int Dim>
 std::vector<std::string> soil_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
 
+/// Warnings of water that does not press on soil that moves.
+template <int Dim>
+std::vector<std::string> load_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);
+
 /// Warnings of keys that have no effect in this scene.
 template <int Dim>
 std::vector<std::string> idle_key_warnings(const SceneDocument& document, const Mesh<Dim>& mesh);

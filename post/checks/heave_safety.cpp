@@ -53,13 +53,14 @@ OuterFace outer_face(const Mesh<Dim>& mesh, const std::array<int, Dim>& nodes, i
   return {element, coordinates(centre), coordinates(normal)};
 }
 
-/// Boundaries through which water can leave. Within the soil, at walls, soil above holds it down.
+/// Boundaries through which water can leave. Within the soil, at walls, wells and drains, soil
+/// above holds it down.
 template <int Dim>
 std::vector<Boundary> boundaries_of(const ResultsReader& results, const Mesh<Dim>& mesh) {
   const auto elements = element_of_face(mesh);
   std::vector<Boundary> boundaries;
   for (const BoundaryCondition& condition : results.scene().scene.boundaries) {
-    if (!lets_water_out(condition)) continue;
+    if (!lets_water_out(condition) || condition.is_well()) continue;
     const auto found = std::ranges::find(mesh.boundaries, condition.on, &BoundarySet<Dim>::name);
     if (found == mesh.boundaries.end()) continue;
     Boundary boundary{condition.on, {}};
@@ -145,12 +146,15 @@ struct SafetyState {
   }
 };
 
+/// Gradients below it are round-off of water that stands still.
+constexpr double still_water = 1e-9;
+
 void include(const SafetyState& state, int element, const std::vector<double>& place,
              PartSafety& part) {
   const double gradient = state.gradient[element];
   const double critical = state.critical[element];
   // Free water has no critical gradient: the value there is NaN.
-  if (!(gradient > 0.0) || !(critical > 0.0)) return;
+  if (!(gradient > still_water) || !(critical > 0.0)) return;
   const double safety = critical / gradient;
   if (safety < 1.0 && !part.first_below) part.first_below = state.time;
   if (part.least && part.least->safety <= safety) return;

@@ -273,11 +273,12 @@ BlanketSection blanket_section(const ResultsReader& results, const Section& sect
   return blanket;
 }
 
-/// The highest head at the landside toe, in the snapshots.
+/// The highest heads at the landside toe in the snapshots, above the ground there or the water on
+/// it, m.
 struct ToeHeads {
-  double time = unset;
-  double river = 0.0;     ///< above the ground at the toe, or the water on it, m
-  double computed = 0.0;  ///< below the cover, likewise
+  double time = unset;  ///< of the river
+  double river = 0.0;
+  double computed = 0.0;  ///< below the cover
 };
 
 std::string note_of(const ToeHeads& worst, double share) {
@@ -360,8 +361,11 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
     const double level = height(toe.position, scene.gravity);
     const double ground = toe.bears_water ? std::max(at(toe.element, toe.weights), level) : level;
     const double river = largest_head(section, head, settings.entry) - ground;
-    if (!(river > worst.river) || river < negligible_head * cover_at_toe) continue;
-    worst = {results.times()[i], river, at(below.element, below.top_weights) - ground};
+    if (river < negligible_head * cover_at_toe) continue;
+    worst.computed = std::max(worst.computed, at(below.element, below.top_weights) - ground);
+    if (!(river > worst.river)) continue;
+    worst.time = results.times()[i];
+    worst.river = river;
     row.note_factor(row.resistance / (share * river / cover_at_toe), worst.time);
   }
   row.time = worst.time;

@@ -206,7 +206,8 @@ void paint_map(vtkContext2D& painter, const Paper& sheet, const Arrows& arrows) 
   const auto streamlines = streamlines_of(model, picture);
   paint_edged_polylines(painter, view, streamlines, stream_color, white, stream_width);
   if (picture.contours) {
-    const auto at_nodes = nodal_values(model.mesh, picture);
+    const auto at_nodes =
+        picture.line_values.empty() ? nodal_values(model.mesh, picture) : picture.line_values;
     const Mesh<2> mesh = without(model.mesh, picture.air);
     paint_contours(painter, view, {mesh, at_nodes, picture.scale.levels()}, {black, contour_width},
                    labels);

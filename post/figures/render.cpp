@@ -326,6 +326,10 @@ FieldPicture Frames::picture(std::size_t index) {
   picture.values = canvas_.mesh
                        ? sheet_values(*canvas_.mesh, canvas_.sheet, place_.where, field.values)
                        : field.values;
+  if (request_.contours) picture.line_values = own_node_values(results_, index, place_);
+  if (canvas_.mesh && !picture.line_values.empty()) {
+    picture.line_values = sheet_values(*canvas_.mesh, canvas_.sheet, "node", picture.line_values);
+  }
   if (request_.cut) picture.title += ", " + cut_text(*request_.cut);
   picture.air = air(index);
   if (!picture.of_points()) return picture;
@@ -338,8 +342,7 @@ FieldPicture Frames::picture(std::size_t index) {
 }
 
 void Frames::add_flow(FieldPicture& picture, std::size_t index) const {
-  if (!request_.vectors && !request_.streamlines) return;
-  if (!flows(results_, index)) return;
+  if ((!request_.vectors && !request_.streamlines) || !flows(results_, index)) return;
   if (request_.vectors) {
     const Field flux = results_.field(index, "cell", "darcy_flux");
     for (int e = 0; e < model_.mesh.element_count(); ++e) {
@@ -359,8 +362,10 @@ void Frames::add_flow(FieldPicture& picture, std::size_t index) const {
 void Frames::add_inside(FieldPicture& picture, std::size_t index) {
   picture.hollow = canvas_.mesh && (!request_.levels.empty() || request_.streamlines);
   if (!picture.hollow) return;
-  const std::vector<double> at_nodes =
-      node_means(*canvas_.mesh, place_.where, series_.at(index).values);
+  std::vector<double> at_nodes = own_node_values(results_, index, place_);
+  if (at_nodes.empty()) {
+    at_nodes = node_means(*canvas_.mesh, place_.where, series_.at(index).values);
+  }
   add_levels(picture, at_nodes);
   if (request_.streamlines && flows(results_, index)) add_paths(picture, at_nodes, index);
 }

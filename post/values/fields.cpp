@@ -137,6 +137,14 @@ ScalarField read_scalar(const ResultsReader& results, std::size_t index, const F
   return scalar;
 }
 
+std::vector<double> own_node_values(const ResultsReader& results, std::size_t index,
+                                    FieldPlace place) {
+  const auto names = results.field_names(index, "node");
+  if (place.where == "node" || std::ranges::count(names, place.name) == 0) return {};
+  place.where = "node";
+  return read_scalar(results, index, place).values;
+}
+
 std::string field_title(const FieldPlace& place) {
   const std::string words = field_words(place.name);
   return place.change ? "Change of " + words + " since the start" : capitalized(words);

@@ -41,6 +41,11 @@ struct ScalarField {
 /// Reads a field of the snapshot `index`. Throws FileError.
 ScalarField read_scalar(const ResultsReader& results, std::size_t index, const FieldPlace& place);
 
+/// Values at nodes of a field of elements that has them too: means of those of elements lie aside
+/// at boundaries. Empty if it has none.
+std::vector<double> own_node_values(const ResultsReader& results, std::size_t index,
+                                    FieldPlace place);
+
 /// "Fines left", "Change of porosity since the start"
 std::string field_title(const FieldPlace& place);
 /// "concentration c (-)", "magnitude of Darcy flux q (m/s)"

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "case/plausibility.hpp"
+#include "case/soil_height.hpp"
 #include "common/errors.hpp"
 #include "driver/exchange_sentences.hpp"
 #include "explicit/nodal_operator.hpp"
@@ -23,6 +24,9 @@
 
 namespace suffuse {
 namespace {
+
+/// Motion in equilibrium, over the height of the soil that can yield, from which on a run warns.
+constexpr double noticed_motion = 0.01;
 
 double largest_inflow_concentration(const Scene& scene) {
   double largest = 0.0;
@@ -188,24 +192,6 @@ void find_speed_that_drag_follows(const Case<Dim>& c, Plan& plan) {
   const bool inertia = scene.time.scheme == FlowScheme::explicit_nodal || plan.flow.inertia;
   if (!inertia || scene.time.mass_scaling > 1.0) return;
   plan.row_limits.speed_that_drag_follows = extent(c.mesh).norm() / longest_relaxation(scene);
-}
-
-template <int Dim>
-void find_watched_motion(const Case<Dim>& c, Plan& plan) {
-  constexpr double share = 0.01;  // of the height of the soil that can yield
-  const Scene& scene = c.document.scene;
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (int e = 0; e < c.mesh.element_count(); ++e) {
-    const Soil* soil = scene.find_soil(c.mesh.region_names[c.mesh.element_region[e]]);
-    if (!soil || !soil->skeleton.moves() || !soil->skeleton.law->yields()) continue;
-    for (const int i : c.mesh.elements[e]) {
-      const double z = height(c.mesh.nodes[i], scene.gravity);
-      lowest = std::min(lowest, z);
-      highest = std::max(highest, z);
-    }
-  }
-  if (highest > lowest) plan.row_limits.watched_motion = share * (highest - lowest);
 }
 
 void warn_of_mass_scaling(const Scene& scene, Plan& plan) {
@@ -466,7 +452,8 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   warn_of_mass_scaling(scene, plan);
   warn_of_pressures_on_slopes(c, grid, conditions, plan);
   find_speed_that_drag_follows(c, plan);
-  find_watched_motion(c, plan);
+  const double height = height_that_yields(c);
+  if (height > 0.0) plan.row_limits.watched_motion = noticed_motion * height;
   describe(scene, c.mesh.region_names, options, plan);
   if constexpr (Dim == 3) {
     plan.sentences.push_back(

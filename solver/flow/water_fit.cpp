@@ -95,6 +95,11 @@ Mismatch mismatch_of(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coeffic
           water_mass[e] / (liquid.density * density_ratio(pressure[e], liquid.bulk_modulus));
       const double pores = coefficients.porosity[e] * grid.volume[e];
       const double least = fit.is_needed ? 0.0 : -most_missing * pores;
+      if (std::isnan(fills)) {
+        throw NumericalError(
+            "pressures are no longer numbers; soil that dries out entirely causes "
+            "this: give soil.NAME.retention a residual_saturation");
+      }
       if (!(fills > least)) refuse_dry(static_cast<int>(e));
       result.volume[e] = fills - coefficients.water_volume[e];
       // Relative to the pores: where fines leave hardly any room for water, an error relative to

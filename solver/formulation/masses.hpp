@@ -75,8 +75,8 @@ class MassAccounts {
   [[nodiscard]] std::size_t count() const { return faces_.size(); }
   /// Sets the initial storage, per account.
   void open(std::vector<Stored> initial) { initial_ = std::move(initial); }
-  /// Initial storage of the whole model.
-  [[nodiscard]] const Stored& initial() const { return initial_[0]; }
+  /// Initial storage of an account: 0 is the whole model, r + 1 region r.
+  [[nodiscard]] const Stored& initial(std::size_t account) const { return initial_[account]; }
 
   /// Books masses that crossed each face along its normal, kg.
   void book(const std::vector<double>& water, const std::vector<double>& fines);

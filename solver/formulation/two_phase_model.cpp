@@ -122,11 +122,6 @@ void TwoPhaseModel<Dim>::book_liquid(const FlowProgress& flow) {
 }
 
 template <int Dim>
-LedgerRow TwoPhaseModel<Dim>::ledger() const {
-  return masses_.ledger(time_, stored());
-}
-
-template <int Dim>
 std::vector<RegionRow> TwoPhaseModel<Dim>::region_rows() const {
   return masses_.region_rows(time_, stored(), soils_, grain_density_);
 }
@@ -225,12 +220,15 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
 template <int Dim>
 void TwoPhaseModel<Dim>::describe_losses(HistoryRow& row) const {
   const LedgerRow masses = ledger();
-  const Stored& initial = masses_.initial();
   row.eroded = masses.eroded;
   row.fines_out = masses.fines_out;
-  const double fines = initial.erodible + initial.fines;
+  double fines = masses_.initial(0).fines;
+  for (std::size_t r = 0; r + 1 < masses_.count(); ++r) {
+    const Soil* soil = scene().find_soil(grid_.mesh.region_names[r]);
+    if (soil && erodes(soil->erosion_model())) fines += masses_.initial(r + 1).erodible;
+  }
   if (fines > 0.0) row.fines_out_percent = 100.0 * masses.fines_out / fines;
-  row.solid_out_percent = 100.0 * masses.fines_out / initial.solid;
+  row.solid_out_percent = 100.0 * masses.fines_out / masses_.initial(0).solid;
 }
 
 template <int Dim>

@@ -79,7 +79,7 @@ class TwoPhaseModel {
 
   // Present values for the results.
   [[nodiscard]] virtual HistoryRow history_row(const FlowState<Dim>& flow) const = 0;
-  [[nodiscard]] LedgerRow ledger() const;
+  [[nodiscard]] LedgerRow ledger() const { return masses_.ledger(time_, stored()); }
   [[nodiscard]] std::vector<RegionRow> region_rows() const;
   [[nodiscard]] std::vector<BoundaryRow> boundary_rows(const FlowState<Dim>& flow) const;
   [[nodiscard]] std::vector<ProbeRow> probe_rows(const FlowState<Dim>& flow) const;

@@ -178,22 +178,22 @@ std::vector<double> SoilMap<Dim>::erosion_breakpoints(const Ranks& ranks) const 
 
 template <int Dim>
 TimeSpan SoilMap<Dim>::exchange_span(bool fines_enter) const {
-  // Porosity summed over many steps reaches its end earlier or later by round-off.
-  constexpr double round_off = 1e-6;
+  constexpr double round_off = 1e-6;  // of a porosity summed over many steps
   constexpr double never = std::numeric_limits<double>::infinity();
   TimeSpan span{never, -never};
   for (int p = 0; p < points_->size(); ++p) {
     const ErosionModel& model = exchange_of_point(p).erosion;
     if (!suffuse::erodes(model)) continue;
     span.start = std::min(span.start, model.start);
-    // Fines also last longer in compressed soil, as a rate is per present volume.
+    // A rate is per present volume of soil; an earlier run may leave other fines than the scene
+    // has.
     const bool waits = soil_of_point(p).erosion.empty_elements == EmptyElements::dry ||
                        soil_of_point(p).skeleton.moves();
     const double gone = exhaustion_time(model, initial_porosity(p)) * (1.0 + round_off);
     span.end = std::max(span.end, waits ? never : gone);
   }
   if (deposits() && fines_enter) span.start = -never;
-  if (deposits() && (fines_enter || erodes())) span.end = never;
+  if ((deposits() || !scene().initial_from.empty()) && (fines_enter || erodes())) span.end = never;
   return span;
 }
 

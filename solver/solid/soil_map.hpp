@@ -136,8 +136,8 @@ class SoilMap {
   /// region), ascending, s.
   [[nodiscard]] std::vector<double> erosion_breakpoints(const Ranks& ranks) const;
   /// Time in which porosity can change: from the first start until nothing is left to erode, if
-  /// only constant rates act; infinite if that is unknown. Fines that enter (`fines_enter`) can be
-  /// caught from the start on.
+  /// only constant rates act; infinite if that is unknown, as where an earlier run leaves other
+  /// fines. Fines that enter (`fines_enter`) can be caught from the start on.
   [[nodiscard]] TimeSpan exchange_span(bool fines_enter) const;
 
  private:

@@ -75,7 +75,9 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
   for (int p = 0; p < state.points.size(); ++p) {
     const Soil& soil = soils.soil_of_point(state.id[p]);
     skeleton.push_back(skeleton_at(soil.skeleton, state.fines_left[p]));
-    if (soil.skeleton.moves() && !failing.includes(soil.region)) {
+    // Other laws than those with a strength would yield under the loads of a trial in one step.
+    const bool fails = failing.includes(soil.region) && soil.skeleton.law->yields();
+    if (soil.skeleton.moves() && !fails) {
       skeleton.back().law = skeleton_law("elastic");
     }
     mass.solid.push_back(state.solid_volume[p] * soil.grain_density);

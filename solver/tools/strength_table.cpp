@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <optional>
 #include <set>
 
+#include "case/soil_height.hpp"
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
 #include "driver/plan.hpp"
@@ -15,6 +17,7 @@
 #include "files/number_text.hpp"
 #include "files/text_output.hpp"
 #include "files/time_unit.hpp"
+#include "physics/head.hpp"
 #include "physics/skeleton/skeleton_law.hpp"
 #include "results/reader.hpp"
 #include "results/vtkhdf.hpp"
@@ -28,6 +31,9 @@ constexpr double notable_suction = 1e3;
 
 /// Difference of heads, over 1 m plus the head, from which on they differ.
 constexpr double noticed_difference = 1e-3;
+
+/// Depth of cracks, over the height of the soil, from which on there is a warning.
+constexpr double noticed_crack = 0.25;
 
 /// A body of fewer elements fails too late: its slip surface follows their sides.
 constexpr std::size_t few_elements = 40;
@@ -187,8 +193,8 @@ void refuse_failing_soil(const Case<Dim>& c, const FailingSoil& failing) {
     if (!soil.skeleton.moves() || has_strength(soil)) continue;
     if (soil.skeleton.law == skeleton_law("elastic")) continue;
     std::fprintf(stderr,
-                 "suffuse-solver: warning: soil %s keeps its strength in all trials: its law, %s, "
-                 "has none to divide\n",
+                 "suffuse-solver: warning: soil %s is elastic in all trials and does not fail: its "
+                 "law, %s, has no strength to divide\n",
                  shown_value(soil.region).c_str(), std::string(soil.skeleton.law->word).c_str());
   }
   const auto warn_of_cut = [](const char* kind, const std::string& name) {
@@ -203,6 +209,32 @@ void refuse_failing_soil(const Case<Dim>& c, const FailingSoil& failing) {
   }
   if (failing.depth > 0.0 && c.document.scene.gravity == std::array<double, 3>{}) {
     refuse_option("--deeper", shown_number(failing.depth), "a scene with gravity");
+  }
+}
+
+/// Cohesion bears tension, down to 2 c tan(45 + phi/2) / gamma below level ground (Terzaghi 1943).
+template <int Dim>
+void warn_of_tension(const Case<Dim>& c, const FailingSoil& failing) {
+  const Scene& scene = c.document.scene;
+  const double height = height_that_yields(c);
+  for (const Soil& soil : scene.soils) {
+    if (!has_strength(soil) || !failing.includes(soil.region) ||
+        !(acceleration(scene.gravity) > 0.0)) {
+      continue;
+    }
+    const SkeletonParameters strength = skeleton_at(soil.skeleton, 1.0).parameters;
+    const double density = (1.0 - soil.porosity) * soil.grain_density +
+                           (soil.drains() ? 0.0 : soil.porosity * scene.liquid.density);
+    const double depth = 2.0 * strength.cohesion *
+                         std::tan(0.25 * std::numbers::pi + 0.5 * strength.friction) /
+                         (density * acceleration(scene.gravity));
+    if (depth <= noticed_crack * height) continue;
+    std::fprintf(stderr,
+                 "suffuse-solver: warning: soil %s bears tension: its cohesion holds up to %s m "
+                 "below the ground, of %s m of soil, where cracks may open; the factor takes none "
+                 "into account\n",
+                 shown_value(soil.region).c_str(), short_text(depth).c_str(),
+                 short_text(height).c_str());
   }
 }
 
@@ -448,6 +480,7 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
       last = *factor < 1.0 ? "" : time;
     }
   }
+  if (table.has_rows()) warn_of_tension(c, options.failing);
   if (!options.mechanism.empty()) table.write_mechanism(options.mechanism);
   if (table.without().empty() || table.has_rows()) output.write(table.text());
   if (table.without().empty()) return;

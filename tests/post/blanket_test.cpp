@@ -82,6 +82,35 @@ TEST(Blanket, RoundOffIsNoRiver) {
   EXPECT_TRUE(row.note.starts_with("no river acts")) << row.note;
 }
 
+/// The computed head in the note of a row, m.
+double computed_head(const CheckRow& row) {
+  const std::size_t begin = row.note.find("theory, ");
+  if (begin == std::string::npos) throw std::runtime_error(row.note);
+  return std::stod(row.note.substr(begin + 8));
+}
+
+/// Below a cover the head goes on rising while the river stays where it is.
+TEST(Blanket, TheComputedHeadIsTheHighestOfAllSnapshots) {
+  const ScratchFolder scratch;
+  const std::vector<std::string> toe{"check.blanket.landside_toe=20.0"};
+  std::string scene = levee_scene(blanket());
+  const ResultsReader steady = run_programs(scratch, "levee", scene, levee_ground());
+  const double highest =
+      computed_head(row_of(check_run(steady, check_settings(steady, toe)), "blanket"));
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(scene.find(from), std::string::npos) << from;
+    scene.replace(scene.find(from), from.size(), to);
+  };
+  const ScratchFolder later;
+  replace("bulk_modulus = inf", "bulk_modulus = 2e6");
+  replace("initial.flow = \"steady\"", "initial = { flow = \"rest\", water_level = 0.0 }");
+  replace("time.end = 1.0\noutput.every = 1.0", "time.end = 1e6\noutput.every = 1e4");
+  const ResultsReader rising = run_programs(later, "levee", scene, levee_ground());
+  const CheckRow row = row_of(check_run(rising, check_settings(rising, toe)), "blanket");
+  EXPECT_NEAR(computed_head(row), highest, 1e-2 * highest);
+  EXPECT_LT(row.time, 1e6);
+}
+
 /// The scene with pairs of conductivity, and the angle of bedding of both soils.
 std::string bedded_scene(const std::string& sand, const std::string& clay, double bedding) {
   std::string scene = levee_scene(

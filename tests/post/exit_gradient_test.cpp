@@ -110,6 +110,18 @@ TEST(ExitGradient, AWallThatLeaksIsNoExit) {
 
 /// Water rises through 1 m of soil into a pit with 0.5 m of free water: the bottom of the pit is an
 /// exit, with the gradient of the column.
+/// Soil lies on a drain and on a well.
+TEST(ExitGradient, ADrainWithinTheSoilIsNoExit) {
+  const ScratchFolder scratch;
+  std::string drained = scene();
+  const std::string wall = "wall = [{ on = \"pile\" }]";
+  ASSERT_NE(drained.find(wall), std::string::npos);
+  drained.replace(drained.find(wall), wall.size(), "well = [{ on = \"pile\", head = -0.2 }]");
+  const auto parts = safety_of(testing::run_programs(scratch, "pile", drained, geometry(0.1)));
+  EXPECT_EQ(std::ranges::find(parts, "pile", &PartSafety::name), parts.end());
+  EXPECT_NE(std::ranges::find(parts, "downstream", &PartSafety::name), parts.end());
+}
+
 TEST(ExitGradient, TheBottomOfAPitFullOfWaterIsAnExit) {
   const ScratchFolder scratch;
   const std::string geometry =

@@ -43,6 +43,9 @@ TEST(Losses, OfReportAndCheckAreSharesOfTheDryMassOfSoilsThatExchangeFines) {
   const double mass = dry_mass_at_start(results);
   EXPECT_NEAR(mass, 0.65 * 2650.0 * 0.5, 1e-9);
   const RunNumbers numbers = run_numbers(results);
+  // The fines of the clay have no part in it.
+  EXPECT_NEAR(results.history().column("fines_out_percent").back(),
+              100.0 * *numbers.fines_out / (0.1 * 2650.0 * 0.5), 1e-9);
   ASSERT_TRUE(numbers.fines_percent.has_value());
   EXPECT_NEAR(*numbers.fines_percent, 100.0 * *numbers.fines_out / mass, 1e-12);
   EXPECT_GT(*numbers.fines_out, 0.0);

@@ -352,6 +352,31 @@ TEST_F(Render, InfiniteValuesAreAsTheLargestAndHaveNoContours) {
   expect_color(Pixels(path).at(at), viridis(1.0), "infinite");
 }
 
+/// Means of elements would lie a third of an element aside at the border.
+TEST_F(Render, ContoursOfAFieldThatNodesHaveTooReachTheBorderWhereItSays) {
+  const Mesh<2> mesh = testing::unit_square_case().mesh;
+  FieldPicture picture = linear_picture(mesh);
+  picture.line_values = picture.values;
+  picture.where = "cell";
+  picture.values.clear();
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    picture.values.push_back(element_centroid(mesh, e)[0]);
+  }
+  picture.contours = true;
+  const std::string path = scratch / "border.png";
+  draw_field_picture(picture_model(mesh, {}), picture, path);
+  const Pixels pixels(path);
+  for (const double y : {0.03, 0.25, 0.97}) {
+    int darkest = 765;
+    for (const double off : {-1.0, 0.0, 1.0}) {
+      const auto c =
+          pixels.at(Eigen::Vector2d{axes_left + 800.0 * 0.4 + off, axes_bottom + 30.0 + 800.0 * y});
+      darkest = std::min(darkest, c[0] + c[1] + c[2]);
+    }
+    EXPECT_LT(darkest, 150) << y;
+  }
+}
+
 TEST_F(Render, AFieldOfElementsHasContoursOfItsMeans) {
   const Mesh<2> mesh = testing::unit_square_case().mesh;
   FieldPicture picture;

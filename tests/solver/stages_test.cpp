@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -327,6 +328,42 @@ TEST_F(FromEarlierOnce, PointsThatCarryTheFlowMayStopToAndStart) {
                                     {"name=third", "initial.from=b.results", "time.end=1.0"})),
         place_.path("c.results"));
   expect_balanced(ResultsReader(place_.path("c.results")).ledger());
+}
+
+/// A filter without fines of its own catches some, and a stage without deposition washes them out
+/// at the rate lambda |q|: exp(-10 1/m * 1e-4 m/s * 2000 s) of them stay.
+TEST_F(FromEarlierOnce, DepositsOfAnEarlierRunErode) {
+  const std::string filter = R"(
+formulation = "single-point"
+gravity = [0.0, 0.0]
+geometry = {shape = "column", width = 0.1, height = 1.0}
+mesh.size = 0.1
+liquid = {density = 1000.0, bulk_modulus = inf, viscosity = 1e-3}
+output.every = 500.0
+)";
+  const auto scene = [&](const std::string& concentration, const std::string& end,
+                         const std::string& law) {
+    return filter + "time.end = " + end +
+           "\nboundary = [{on = \"bottom\", pressure = 0.0}, {on = \"top\", darcy_flux = 1e-4, "
+           "concentration = " +
+           concentration +
+           "}]\n[soil.specimen]\nporosity = 0.4\nskeleton_fraction = 0.6\n"
+           "grain_density = 2650.0\nconductivity = 1e-3\n" +
+           law;
+  };
+  solve(place_.make_case({"filled",
+                          scene("0.02", "1000.0", "deposition.coefficient = 2.0\n"),
+                          {"initial.flow=steady"}}),
+        place_.path("a.results"));
+  solve(place_.make_case({"washed",
+                          scene("0.0", "2000.0", "erosion = {law = \"flux\", rate = 10.0}\n"),
+                          {"initial.from=a.results"}}),
+        place_.path("b.results"));
+  const Table ledger = ResultsReader(place_.path("b.results")).ledger();
+  const double deposits = ledger.column("erodible").front();
+  EXPECT_GT(deposits, 0.1);
+  EXPECT_NEAR(ledger.column("erodible").back(), deposits * std::exp(-2.0), 1e-3 * deposits);
+  expect_balanced(ledger);
 }
 
 TEST_F(FromEarlierOnce, UnsaturatedSoilKeepsItsWater) {

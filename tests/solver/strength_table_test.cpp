@@ -628,7 +628,7 @@ TEST(StrengthTable, SaysBetweenWhichSnapshotsTheFactorFallsBelowOne) {
   static_cast<void>(w.table("weak", states));
   EXPECT_NE(w.errors().find(sentence), std::string::npos) << w.errors();
   static_cast<void>(w.table("weak", states + " --quiet"));
-  EXPECT_EQ(w.errors(), "");
+  EXPECT_EQ(w.errors().find("falls below"), std::string::npos) << w.errors();
   static_cast<void>(w.table("moving", states));
   EXPECT_EQ(w.errors().find("falls below"), std::string::npos) << w.errors();
 }
@@ -807,7 +807,7 @@ TEST(StrengthTable, WarnsOfSuctionInSoilThatStaysFull) {
 TEST(StrengthTable, WarnsOfALevelThatIsNotThatOfTheRun) {
   const Workshop w;
   w.folder().write("slope.geo", slope_geometry);
-  Slope slope{.mesh = 4.0, .cohesion = 5e4, .water_level = 10.0};
+  Slope slope{.mesh = 4.0, .cohesion = 1.5e4, .water_level = 10.0};
   slope.more = "[[boundary]]\non = \"slope\"\nhead = [[0.0, 10.0], [5.0, 8.0]]\n";
   w.mesh("drawn", slope_scene(slope));
   w.solve("drawn");
@@ -825,6 +825,63 @@ TEST(StrengthTable, WarnsOfALevelThatIsNotThatOfTheRun) {
             "is of soil with two levels at once\n");
 }
 
+/// A law without a strength is elastic in trials: soil that hardens would settle under the loads of
+/// a trial in one step, and never hold.
+TEST(StrengthTable, ClayBelowStandsAsElasticSoilDoes) {
+  const Workshop w;
+  std::string geometry = slope_geometry;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(geometry.find(from), std::string::npos) << from;
+    geometry.replace(geometry.find(from), from.size(), to);
+  };
+  replace("Line(2) = {2, 3};", "Point(5) = {0, 4, 0};\nPoint(6) = {24, 4, 0};\nLine(2) = {2, 6};");
+  replace("Line(4) = {4, 1};",
+          "Line(4) = {4, 5};\nLine(5) = {6, 3};\nLine(6) = {5, 1};\nLine(7) = {5, 6};");
+  replace("Curve Loop(1) = {1, 2, 3, 4};",
+          "Curve Loop(1) = {7, 5, 3, 4};\nCurve Loop(2) = {1, 2, -7, 6};\nPlane Surface(2) = "
+          "{2};\nPhysical Surface(\"clay\") = {2};");
+  replace("\"slope\") = {2}", "\"slope\") = {2, 5}");
+  replace("\"back\") = {4}", "\"back\") = {4, 6}");
+  w.folder().write("slope.geo", geometry);
+  const auto factor = [&](const std::string& law) {
+    Slope slope{.mesh = 4.0, .cohesion = 2e4};
+    slope.more = "[soil.clay]\nlike = \"fill\"\nskeleton = {law = \"" + law + "}\n";
+    w.mesh("layered", slope_scene(slope));
+    return w.factors("layered").at("factor").front();
+  };
+  const double elastic = factor("elastic\", young = 2e7, poisson = 0.3");
+  EXPECT_GT(elastic, 1.0);
+  EXPECT_LT(elastic, 10.0);
+  EXPECT_EQ(factor("cam-clay\", young = 2e7, poisson = 0.3, critical_friction = 25.0, "
+                   "compression = 0.1, preconsolidation = 1e5"),
+            elastic);
+  EXPECT_NE(w.errors().find("soil \"clay\" is elastic in all trials and does not fail: its law, "
+                            "cam-clay, has no strength to divide"),
+            std::string::npos)
+      << w.errors();
+}
+
+/// Terzaghi's depth of cracks: 2 * 25 kPa / 17 kN/m3 in the half of a cut that is 5 m high.
+TEST(StrengthTable, WarnsOfTensionThatCohesionBears) {
+  const Workshop w;
+  w.folder().write("slope.geo", slope_geometry);
+  const auto warns = [&](double cohesion) {
+    w.mesh("slope", slope_scene({.mesh = 4.0, .cohesion = cohesion}));
+    EXPECT_NE(w.table("slope", "--quiet"), "");
+    return w.errors();
+  };
+  EXPECT_EQ(warns(1e4), "");
+  const std::string text = warns(4e4);
+  EXPECT_TRUE(
+      text.starts_with("suffuse-solver: warning: soil \"fill\" bears tension: its cohesion "
+                       "holds up to "))
+      << text;
+  EXPECT_TRUE(
+      text.ends_with(" m below the ground, of 10 m of soil, where cracks may open; the "
+                     "factor takes none into account\n"))
+      << text;
+}
+
 TEST(StrengthTable, WarnsOfAWallThatNoSlipSurfaceCrosses) {
   const Workshop w;
   w.folder().write("slope.geo", std::string(slope_geometry) + R"(
@@ -834,7 +891,7 @@ Line(5) = {5, 6};
 Curve{5} In Surface{1};
 Physical Curve("core") = {5};
 )");
-  Slope slope{.mesh = 4.0, .cohesion = 5e4};
+  Slope slope{.mesh = 4.0, .cohesion = 1e4};
   slope.more = "[[wall]]\non = \"core\"\n";
   w.mesh("walled", slope_scene(slope));
   EXPECT_NE(w.table("walled", "--quiet"), "");

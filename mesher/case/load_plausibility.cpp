@@ -1,0 +1,147 @@
+#include <map>
+#include <set>
+
+#include "case/plausibility_base.hpp"
+#include "common/short_number.hpp"
+#include "mesh/faces.hpp"
+#include "mesh/place_text.hpp"
+
+namespace suffuse {
+namespace {
+
+/// Share of the height of the model below which water on the ground is not noticed.
+constexpr double noticed_depth = 1e-2;
+
+/// The upward part of the unit normal above which a face is ground: it leans by 5 degrees.
+constexpr double least_upward = 0.087;
+
+/// Water on soil that moves.
+template <int Dim>
+class WaterLoads : private PlausibilityBase<Dim> {
+ public:
+  using PlausibilityBase<Dim>::PlausibilityBase;
+
+  std::vector<std::string> run() {
+    const bool has_free_water = std::ranges::any_of(
+        mesh_.region_names, [&](const auto& region) { return scene_.is_free_water(region); });
+    if (!scene_.moves() || has_free_water || !has_gravity(scene_.gravity)) return {};
+    const std::vector<Ground> ground = ground_that_moves();
+    for (const BoundaryCondition& b : scene_.boundaries) check_pressure(b, ground);
+    check_bare_ground(ground);
+    return std::move(warnings_);
+  }
+
+ private:
+  using Face = std::array<int, Dim>;
+  using Base = PlausibilityBase<Dim>;
+  using Base::mesh_;
+  using Base::scene_;
+  using Base::warn;
+  using Base::warnings_;
+
+  /// An outer face on top of soil that moves.
+  struct Ground {
+    Face face;  ///< as `face_key`
+    Vector<Dim> centre;
+  };
+
+  [[nodiscard]] bool soil_moves(int element) const {
+    const Soil* soil = scene_.find_soil(mesh_.region_names[mesh_.element_region[element]]);
+    return soil && soil->skeleton.moves();
+  }
+
+  [[nodiscard]] std::vector<Ground> ground_that_moves() const {
+    const FaceTable<Dim> faces(mesh_);
+    const Vector<Dim> up = -Eigen::Map<const Vector<Dim>>(scene_.gravity.data()).normalized();
+    std::vector<Ground> ground;
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      for (int a = 0; a <= Dim && soil_moves(e); ++a) {
+        const Face face = face_opposite<Dim>(mesh_.elements[e], a);
+        if (faces.owners(face) != 1) continue;
+        Vector<Dim> centre = Vector<Dim>::Zero();
+        for (const int i : face) centre += mesh_.nodes[i] / Dim;
+        Vector<Dim> normal = face_normal<Dim>(mesh_, face).normalized();
+        if (normal.dot(element_centroid(mesh_, e) - centre) > 0.0) normal = -normal;
+        if (normal.dot(up) < least_upward) continue;
+        ground.push_back({face_key<Dim>(face), centre});
+      }
+    }
+    return ground;
+  }
+
+  /// The faces of a boundary, as `face_key`.
+  [[nodiscard]] std::set<Face> faces_of(const BoundaryCondition& b) const {
+    std::set<Face> faces;
+    for (const BoundarySet<Dim>& set : mesh_.boundaries) {
+      for (const Face& face : set.faces) {
+        if (set.name == b.on) faces.insert(face_key<Dim>(face));
+      }
+    }
+    return faces;
+  }
+
+  /// A pressure of the pores is no load: water that stands on soil has a head.
+  void check_pressure(const BoundaryCondition& b, const std::vector<Ground>& ground) {
+    if (!b.pressure || b.traction || b.fix != Fixing::none) return;
+    const auto [low, high] = b.pressure->range(0.0, scene_.time.end);
+    if (high <= 0.0) return;
+    const std::set<Face> faces = faces_of(b);
+    if (std::ranges::none_of(ground, [&](const Ground& g) { return faces.contains(g.face); })) {
+      return;
+    }
+    warn(joined(b.key, "pressure"),
+         "presses on the water in the pores alone, not on the soil, which moves; water that stands "
+         "on it has a head, other loads are a traction");
+  }
+
+  /// Water above ground without a boundary: up to the level at the start, and to the heads of
+  /// boundaries beside it.
+  void check_bare_ground(const std::vector<Ground>& ground) {
+    std::set<Face> known;
+    std::map<int, double> head_at;  // of the nodes of boundaries
+    for (const BoundaryCondition& b : scene_.boundaries) {
+      for (const Face& face : faces_of(b)) {
+        known.insert(face);
+        if (!b.head || b.is_well()) continue;
+        const double head = b.head->range(0.0, scene_.time.end).second;
+        for (const int i : face) {
+          double& highest = head_at.try_emplace(i, head).first->second;
+          highest = std::max(highest, head);
+        }
+      }
+    }
+    const double noticed = noticed_depth * this->height_of_model();
+    double depth = noticed;
+    const Ground* deepest = nullptr;
+    for (const Ground& g : ground) {
+      if (known.contains(g.face)) continue;
+      double level = scene_.water_level.value_or(-std::numeric_limits<double>::infinity());
+      for (const int i : g.face) {
+        if (const auto found = head_at.find(i); found != head_at.end()) {
+          level = std::max(level, found->second);
+        }
+      }
+      const double above = level - height(g.centre, scene_.gravity);
+      if (above <= depth) continue;
+      depth = above;
+      deepest = &g;
+    }
+    if (!deepest) return;
+    warn("boundary", "none on the ground at " + place_text<Dim>(deepest->centre) +
+                         ", above which water stands " + short_number(depth) +
+                         " m high: it does not press on the soil there, which moves; a boundary "
+                         "with its head does so");
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::string> load_warnings(const SceneDocument& document, const Mesh<Dim>& mesh) {
+  return WaterLoads<Dim>(document, mesh).run();
+}
+
+template std::vector<std::string> load_warnings(const SceneDocument&, const Mesh<2>&);
+template std::vector<std::string> load_warnings(const SceneDocument&, const Mesh<3>&);
+
+}  // namespace suffuse
