@@ -1,6 +1,3 @@
-#include <sys/personality.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -248,20 +245,8 @@ int run(int argc, char** argv) {
   return static_cast<int>(ExitCode::done);
 }
 
-/// Runs the program once more with the same addresses each time: meshes by Gmsh's HXT depend on
-/// them, and a scene that is meshed again has to have the same mesh. Does nothing where the system
-/// forbids it.
-void fix_addresses(char** argv) {
-  constexpr unsigned long ask = 0xffffffff;
-  const int now = personality(ask);
-  if (now == -1 || (now & ADDR_NO_RANDOMIZE) != 0) return;
-  if (personality(static_cast<unsigned long>(now) | ADDR_NO_RANDOMIZE) == -1) return;
-  execv("/proc/self/exe", argv);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  fix_addresses(argv);
   return run_program(program, [&] { return run(argc, argv); });
 }

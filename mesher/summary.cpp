@@ -121,7 +121,9 @@ std::string angle_warning(const Mesh<Dim>& mesh) {
   if (angle >= poor_angle) return "";
   return "the smallest angle is " + number(angle, "degrees") +
          "; below 5 degrees steps are short and results poor: change the geometry or mesh.size" +
-         (Dim == 3 ? ", or take Gmsh's HXT (Mesh.Algorithm3D = 10 in the geometry file)" : "");
+         (Dim == 3 ? ", or take Gmsh's HXT (Mesh.Algorithm3D = 10 in the geometry file), which "
+                     "makes another mesh each time: keep the case file for later stages"
+                   : "");
 }
 
 template std::string case_summary(const Case<2>&, const std::vector<std::string>&);
