@@ -1,3 +1,5 @@
+#include <array>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -9,7 +11,7 @@
 namespace suffuse {
 namespace {
 
-/// Share of the height of the model below which water on the ground is not noticed.
+/// Depth of water on the ground, over the height of the model, from which on there is a warning.
 constexpr double noticed_depth = 1e-2;
 
 /// The upward part of the unit normal above which a face is ground: it leans by 5 degrees.
@@ -110,8 +112,7 @@ class WaterLoads : private PlausibilityBase<Dim> {
         }
       }
     }
-    const double noticed = noticed_depth * this->height_of_model();
-    double depth = noticed;
+    double depth = noticed_depth * this->height_of_model();
     const Ground* deepest = nullptr;
     for (const Ground& g : ground) {
       if (known.contains(g.face)) continue;

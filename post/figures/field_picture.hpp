@@ -62,8 +62,8 @@ struct FieldPicture {
   std::string label;           ///< label of the colour bar, with the unit
   std::string where;           ///< "cell", "node", "element_vertex", "solid" or "liquid"
   std::vector<double> values;  ///< at elements, nodes, vertices of elements or points
-  std::vector<double> line_values =
-      {};                            ///< at nodes, for lines of equal values; empty: from `values`
+  /// At nodes, for lines of equal values; empty: from `values`.
+  std::vector<double> line_values = {};
   std::vector<Vector<2>> positions;  ///< places of points; empty for fields of elements and nodes
   std::vector<double> volumes;       ///< of points that move, m3 per metre of thickness; or empty
   std::vector<bool> air{};           ///< elements of which nothing is shown; or empty

@@ -107,9 +107,9 @@ std::vector<std::string> caption_of(const FlowNet& net, double fall) {
   lines.push_back("H = " + digits_text(fall, 4) + " m, N_d = " + std::to_string(net.drops) +
                   " drops of " + digits_text(fall / net.drops, 4) + " m");
   if (net.stream.misfit > noticed_net_misfit) {
-    lines.push_back(
-        "The flow is not steady: streamlines miss " + digits_text(100.0 * net.stream.misfit, 4) +
-        " % of the flux, and H lies between the highest and the lowest head in the soil");
+    lines.push_back("The flow is not steady: streamlines miss " +
+                    digits_text(100.0 * net.stream.misfit, 4) +
+                    " % of the flux, and H is the highest less the lowest head in the soil");
   }
   return lines;
 }

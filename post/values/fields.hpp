@@ -41,8 +41,8 @@ struct ScalarField {
 /// Reads a field of the snapshot `index`. Throws FileError.
 ScalarField read_scalar(const ResultsReader& results, std::size_t index, const FieldPlace& place);
 
-/// Values at nodes of a field of elements that has them too: means of those of elements lie aside
-/// at boundaries. Empty if it has none.
+/// Values at nodes of a field that has them in addition to those of elements, of which means are
+/// off by up to an element at boundaries. Empty if it has none.
 std::vector<double> own_node_values(const ResultsReader& results, std::size_t index,
                                     FieldPlace place);
 

@@ -185,8 +185,7 @@ TimeSpan SoilMap<Dim>::exchange_span(bool fines_enter) const {
     const ErosionModel& model = exchange_of_point(p).erosion;
     if (!suffuse::erodes(model)) continue;
     span.start = std::min(span.start, model.start);
-    // A rate is per present volume of soil; an earlier run may leave other fines than the scene
-    // has.
+    // Fines also last longer in compressed soil, as a rate is per present volume.
     const bool waits = soil_of_point(p).erosion.empty_elements == EmptyElements::dry ||
                        soil_of_point(p).skeleton.moves();
     const double gone = exhaustion_time(model, initial_porosity(p)) * (1.0 + round_off);
