@@ -20,8 +20,7 @@ constexpr double least_pressure = 2e-3;
 constexpr double noticed = 1e3;
 /// Height of water above the crest, in model heights: round-off.
 constexpr double crest_margin = 1e-6;
-/// Upward part of the unit normal of faces that lean by 5 degrees, and rise by 5 degrees.
-constexpr double nearly_upright = 0.087;
+/// Upward part of the unit normal of faces that rise by 5 degrees.
 constexpr double nearly_level = 0.996;
 
 template <int Dim>
@@ -144,9 +143,7 @@ class Flow : private PlausibilityBase<Dim> {
   /// seeps out.
   void check_crest(const BoundaryCondition& b) {
     const auto seeps = [](const BoundaryCondition& other) { return other.seepage_face; };
-    const bool has_free_water = std::ranges::any_of(
-        mesh_.region_names, [&](const auto& region) { return scene_.is_free_water(region); });
-    if (!has_gravity(scene_.gravity) || has_free_water || !is_slope(b.on) ||
+    if (!has_gravity(scene_.gravity) || this->has_free_water() || !is_slope(b.on) ||
         std::ranges::none_of(scene_.boundaries, seeps)) {
       return;
     }
@@ -165,7 +162,7 @@ class Flow : private PlausibilityBase<Dim> {
     const Vector<Dim> up = -Eigen::Map<const Vector<Dim>>(scene_.gravity.data()).normalized();
     return std::ranges::any_of(found->faces, [&](const auto& face) {
       const double upward = std::abs(face_normal<Dim>(mesh_, face).normalized().dot(up));
-      return upward > nearly_upright && upward < nearly_level;
+      return upward > Base::nearly_upright && upward < nearly_level;
     });
   }
 

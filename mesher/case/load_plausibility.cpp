@@ -14,9 +14,6 @@ namespace {
 /// Depth of water on the ground, over the height of the model, from which on there is a warning.
 constexpr double noticed_depth = 1e-2;
 
-/// The upward part of the unit normal above which a face is ground: it leans by 5 degrees.
-constexpr double least_upward = 0.087;
-
 /// Water on soil that moves.
 template <int Dim>
 class WaterLoads : private PlausibilityBase<Dim> {
@@ -24,9 +21,7 @@ class WaterLoads : private PlausibilityBase<Dim> {
   using PlausibilityBase<Dim>::PlausibilityBase;
 
   std::vector<std::string> run() {
-    const bool has_free_water = std::ranges::any_of(
-        mesh_.region_names, [&](const auto& region) { return scene_.is_free_water(region); });
-    if (!scene_.moves() || has_free_water || !has_gravity(scene_.gravity)) return {};
+    if (!scene_.moves() || this->has_free_water() || !has_gravity(scene_.gravity)) return {};
     const std::vector<Ground> ground = ground_that_moves();
     for (const BoundaryCondition& b : scene_.boundaries) check_pressure(b, ground);
     check_bare_ground(ground);
@@ -64,7 +59,7 @@ class WaterLoads : private PlausibilityBase<Dim> {
         for (const int i : face) centre += mesh_.nodes[i] / Dim;
         Vector<Dim> normal = face_normal<Dim>(mesh_, face).normalized();
         if (normal.dot(element_centroid(mesh_, e) - centre) > 0.0) normal = -normal;
-        if (normal.dot(up) < least_upward) continue;
+        if (normal.dot(up) < Base::nearly_upright) continue;
         ground.push_back({face_key<Dim>(face), centre});
       }
     }

@@ -51,6 +51,15 @@ class PlausibilityBase {
     return range;
   }
 
+  [[nodiscard]] bool has_free_water() const {
+    return std::ranges::any_of(mesh_.region_names, [this](const std::string& region) {
+      return scene_.is_free_water(region);
+    });
+  }
+
+  /// The upward part of the unit normal of a face that leans by 5 degrees.
+  static constexpr double nearly_upright = 0.087;
+
   [[nodiscard]] double height_of_model() const {
     const auto [low, high] = heights();
     return high - low;

@@ -57,8 +57,8 @@ class VerticalLines {
   [[nodiscard]] std::optional<GroundPlace<Dim>> ground_at(double x) const;
   /// The line from a place on the ground down to the end of the soil, in order.
   [[nodiscard]] std::vector<LineSegment<Dim>> below(const GroundPlace<Dim>& place) const;
-  /// The highest layer of a region on a line. It ends at the first soil of another region, also
-  /// where the region comes again below. Empty if the line does not cross the region.
+  /// The highest layer of a region on a line. It ends at the first soil of another region, even
+  /// if the region lies below that soil too. Empty if the line does not cross the region.
   [[nodiscard]] LinePart<Dim> highest_layer(LinePart<Dim> line, const std::string& region) const;
   /// The lowest layer of a region on a line.
   [[nodiscard]] LinePart<Dim> lowest_layer(LinePart<Dim> line, const std::string& region) const;
