@@ -9,7 +9,7 @@
 #include "boundary/leaky_walls.hpp"
 #include "grid/element_field.hpp"
 #include "grid/grid.hpp"
-#include "mixed/directional_factor.hpp"
+#include "mixed/flow_soils.hpp"
 
 namespace suffuse {
 

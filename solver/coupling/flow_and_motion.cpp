@@ -31,7 +31,8 @@ constexpr double nearer = 0.9;
 /// Stiffness of confined water over the oedometer modulus of the soil.
 constexpr double undrained_stiffness = 300.0;
 constexpr int memory = 20;
-/// The last step predicts the pressures of the next one, unless this is longer by this factor.
+/// The last step predicts the pressures of the next one, unless this is longer by this factor or
+/// the soil has inertia.
 constexpr double longest_growth = 10.0;
 /// Pressures agree if they differ by less than this share of the largest change in the step and of
 /// the error that the step may have ...
@@ -271,7 +272,8 @@ Eigen::VectorXd FlowAndMotion<Dim>::acting_shares(const FlowSoils<Dim>& soils,
 
 template <int Dim>
 Eigen::VectorXd FlowAndMotion<Dim>::expected_rise(const PressureRise& last, double dt) const {
-  if (last.rate.empty() || dt > longest_growth * last.time) {
+  // Pressures of soil that falls go up and down from step to step.
+  if (last.rate.empty() || dt > longest_growth * last.time || solid_.has_inertia()) {
     return Eigen::VectorXd::Zero(grid_.face_count());
   }
   return dt * Eigen::Map<const Eigen::VectorXd>(last.rate.data(), grid_.face_count());

@@ -20,6 +20,14 @@ namespace {
 /// Newton's method of the flow leaves so much, and the next step flows by the air.
 constexpr double most_missing = 1e-4;
 
+/// The flow over `dt` seconds, if it stays as it is.
+template <int Dim>
+MixedStep<Dim> steady_step_of(const MixedFlow<Dim>& flow, double dt) {
+  MixedStep<Dim> step{flow.state, flow.face_flux, flow.face_flux, flow.face_flux};
+  for (double& volume : step.face_volume) volume *= dt;
+  return step;
+}
+
 /// Adds sources that let out `volume` per element, m3, over `dt`.
 void let_out(const std::vector<double>& volume, double dt, std::vector<double>& source) {
   source.resize(volume.size(), 0.0);

@@ -77,4 +77,16 @@ std::vector<double> element_sums(const ElementField<Dim>& field) {
   return result;
 }
 
+/// Adds to `room` the volume of air that has left each element between two states, m3. `room` may
+/// be empty, and remains so without air.
+template <std::size_t Sides>
+void add_displaced_air(const std::vector<std::array<double, Sides>>& before,
+                       const std::vector<std::array<double, Sides>>& after,
+                       std::vector<double>& room) {
+  if (room.empty()) room.resize(before.size(), 0.0);
+  for (std::size_t e = 0; e < before.size(); ++e) {
+    for (std::size_t k = 0; k < Sides; ++k) room[e] += before[e][k] - after[e][k];
+  }
+}
+
 }  // namespace suffuse

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mixed/directional_factor.hpp"
+#include "linear/directional_factor.hpp"
 #include "mixed/flow.hpp"
 #include "physics/retention/retention_law.hpp"
 #include "solid/skeleton.hpp"
@@ -50,6 +50,10 @@ struct FlowSoils {
     state.capacity *= head_per_pressure;
     state.conductivity_slope *= head_per_pressure;
     return state;
+  }
+  /// Whether two elements have the same state at the same pressure.
+  [[nodiscard]] bool are_alike(int e, int other) const {
+    return retention[e] == retention[other] && (!air_moves() || soil_share[e] == soil_share[other]);
   }
   /// Pressures at which dS/dp of the soil and of free space in the element is largest, Pa; 0 where
   /// there is none, or where it stays saturated.

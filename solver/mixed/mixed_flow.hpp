@@ -27,14 +27,6 @@ MixedFlow<Dim> end_of(MixedStep<Dim> step) {
   return {std::move(step.end), std::move(step.face_flux), std::move(step.flux_through)};
 }
 
-/// The flow over `dt` seconds, if it stays as it is.
-template <int Dim>
-MixedStep<Dim> steady_step_of(const MixedFlow<Dim>& flow, double dt) {
-  MixedStep<Dim> step{flow.state, flow.face_flux, flow.face_flux, flow.face_flux};
-  for (double& volume : step.face_volume) volume *= dt;
-  return step;
-}
-
 /// Water at rest: `pressure` per face, Pa, or the prescribed one where there is one.
 template <int Dim>
 MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
@@ -50,18 +42,6 @@ MixedFlow<Dim> flow_at_rest(const Grid<Dim>& grid, const std::vector<FaceConditi
     }
   }
   return flow;
-}
-
-/// Adds to `room` the volume of air that has left each element between two states, m3. `room` may
-/// be empty, and remains so without air.
-template <std::size_t Sides>
-void add_displaced_air(const std::vector<std::array<double, Sides>>& before,
-                       const std::vector<std::array<double, Sides>>& after,
-                       std::vector<double>& room) {
-  if (room.empty()) room.resize(before.size(), 0.0);
-  for (std::size_t e = 0; e < before.size(); ++e) {
-    for (std::size_t k = 0; k < Sides; ++k) room[e] += before[e][k] - after[e][k];
-  }
 }
 
 /// Mean of the pressures at the faces of each element, Pa.

@@ -14,8 +14,8 @@
 #include "grid/element_field.hpp"
 #include "grid/grid.hpp"
 #include "grid/parallel.hpp"
+#include "linear/directional_factor.hpp"
 #include "linear/sparse_entries.hpp"
-#include "mixed/directional_factor.hpp"
 #include "mixed/flow.hpp"
 
 namespace suffuse {

@@ -73,6 +73,7 @@ struct MixedStage {
     law.factor = model.soils.bedding;
     law.drive = drive;
     for_each_element([&](int e) { set_mobility(e, 1.0 / resistance[e]); });
+    if (retains && model.soils.air_moves() && !is_steady()) share_source();
   }
 
   void for_each_element(const auto& body) const {
@@ -118,27 +119,13 @@ struct MixedStage {
   [[nodiscard]] double flux_out(int e, int k, double rise) const {
     return flux[e].dot(model.grid.outward_normal(e, k)) - stored(e, k, rise) + side_source(e, k);
   }
-  /// The part of an element's source in the share of a side, m3/s. Water that moves with the soil
-  /// and its air leaves sides by what they hold, and enters them by their room: a dry side has
-  /// nothing to give.
+  /// The part of an element's source in the share of a side, m3/s.
   [[nodiscard]] double side_source(int e, int k) const {
-    if (net_source[e] == 0.0 || displaced.empty() || is_steady() || !model.soils.air_moves()) {
-      return net_source[e] / (Dim + 1);
-    }
-    const double pores = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
-    const auto takes_part = [&](int side) {
-      const double air = base.air[e][side];
-      return std::max(0.0, net_source[e] > 0.0 ? air : pores - air);
-    };
-    double sum = 0.0;
-    for (int side = 0; side <= Dim; ++side) sum += takes_part(side);
-    return net_source[e] * (sum > 0.0 ? takes_part(k) / sum : 1.0 / (Dim + 1));
+    return moved_source.empty() ? net_source[e] / (Dim + 1) : moved_source[e][k];
   }
-  /// Rate at which liquid displaces air in the share of a side with this saturation, m3/s.
-  [[nodiscard]] double displacement_rate(int e, int k, double saturation) const {
-    if (is_steady()) return 0.0;
-    const double share = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
-    return (base.air[e][k] - share * (1.0 - saturation)) / duration;
+  /// Rate at which liquid displaces air in the share of a side that ends with `air`, m3, in m3/s.
+  [[nodiscard]] double displacement_rate(int e, int k, double air) const {
+    return is_steady() ? 0.0 : (base.air[e][k] - air) / duration;
   }
   [[nodiscard]] double inflow(int f) const { return faces.inflow(f, coefficients.porosity); }
   /// Flux per pressure, m3/(s Pa), through the element's largest face.
@@ -194,6 +181,7 @@ struct MixedStage {
   std::vector<double> storage;         ///< per face of the element, m3/(s Pa)
   std::vector<double> mean_storage;    ///< of mean pressures, m3/(s Pa); may be empty
   std::vector<double> net_source;      ///< prescribed outflow, m3/s
+  ElementField<Dim> moved_source;      ///< its share per side where air moves; empty: equal shares
   VectorField<Dim> expected_gradient;  ///< that of the additional mobility, Pa/m; may be empty
   std::vector<LeakyFace> walls;        ///< with the bounded conductance of this stage
 
@@ -204,6 +192,22 @@ struct MixedStage {
   ElementField<Dim> displaced;
 
  private:
+  /// Water that moves with the soil and its air leaves sides by what they hold, and enters them by
+  /// their room: a dry side has nothing to give.
+  void share_source() {
+    moved_source.resize(net_source.size());
+    for_each_element([&](int e) {
+      const double pores = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
+      double sum = 0.0;
+      for (int k = 0; k <= Dim; ++k) {
+        const double air = base.air[e][k];
+        sum += moved_source[e][k] = std::max(0.0, net_source[e] > 0.0 ? air : pores - air);
+      }
+      for (double& part : moved_source[e]) {
+        part = net_source[e] * (sum > 0.0 ? part / sum : 1.0 / (Dim + 1));
+      }
+    });
+  }
   /// Linear resistance, drive and storage of each element.
   void find_resistance() {
     const FlowCoefficients<Dim>& c = coefficients;

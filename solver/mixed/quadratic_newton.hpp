@@ -85,12 +85,9 @@ class QuadraticNewton {
   }
   [[nodiscard]] Change change_to(const Field& new_flux, const Field& new_push) const {
     const MixedModel<Dim>& model = stage_.model;
-    Change result;
-    for (const Vector<Dim>& q : new_flux) {
-      result.largest_flux = std::max(result.largest_flux, q.norm());
-    }
     const Ranks& ranks = model.grid.ranks();
-    result.largest_flux = largest_of_all(ranks, result.largest_flux);
+    Change result;
+    result.largest_flux = stage_.largest_of_elements([&](int e) { return new_flux[e].norm(); });
     for (std::size_t i = 0; i < new_flux.size(); ++i) {
       const int e = static_cast<int>(i);
       const double rise = model.largest_at_faces(e, stage_.pressure.rise);

@@ -5,6 +5,7 @@
 /// Water Resour. Res. 26 (1990) 1483), and the seepage faces that are open.
 
 #include "mixed/pressure_system.hpp"
+#include "mixed/side_states.hpp"
 
 namespace suffuse {
 
@@ -18,7 +19,10 @@ class RetentionNewton {
         faces_(stage.faces),
         round_off_(balance_round_off()),
         side_storage_(stage.displaced.size()),
-        gain_(stage.displaced.size()) {}
+        gain_(stage.displaced.size()),
+        steepest_(stage.displaced.size()) {
+    for (int e = 0; e < std::ssize(steepest_); ++e) steepest_[e] = model_.soils.steepest(e);
+  }
 
   /// Finds pressures, fluxes and the set of open seepage faces. Returns the number of solutions.
   /// Throws NotConverged.
@@ -111,15 +115,14 @@ class RetentionNewton {
 
   /// Mobility, displaced air, and their slopes, at the reference pressures.
   void linearise_retention() {
-    const FlowSoils<Dim>& soils = model_.soils;
+    const SideStates<Dim> sides(model_, stage_.pressure.reference);
     stage_.for_each_element([&](int e) {
       double conducts = 0.0;
       const double share = stage_.coefficients.porosity[e] * model_.grid.volume[e] / (Dim + 1);
       for (int k = 0; k <= Dim; ++k) {
-        const RetentionState side =
-            soils.at(e, stage_.pressure.reference[model_.grid.element_face[e][k]]);
+        const RetentionState side = sides.at(e, k);
         conducts += side.relative_conductivity / (Dim + 1);
-        stage_.displaced[e][k] = stage_.displacement_rate(e, k, side.saturation);
+        stage_.displaced[e][k] = stage_.displacement_rate(e, k, share * (1.0 - side.saturation));
         side_storage_[e][k] = stage_.is_steady() ? 0.0 : share * side.capacity / stage_.duration;
         gain_[e][k] = side.conductivity_slope / (Dim + 1);
       }
@@ -176,7 +179,7 @@ class RetentionNewton {
       if (faces_.is_held(f) || stays_wet) return;
       for (const int e : {model_.grid.face_left[f], model_.grid.face_right[f]}) {
         if (e < 0) continue;
-        for (const double steepest : model_.soils.steepest(e)) {
+        for (const double steepest : steepest_[e]) {
           const double way = steepest - pressure.reference[f];
           const bool passes = steepest < 0.0 && way != 0.0 &&
                               (way > 0.0) == (pressure.rise[f] > 0.0) &&
@@ -308,9 +311,10 @@ class RetentionNewton {
   PressureSystem<Dim>& system_;
   const MixedModel<Dim>& model_;
   StageFaces<Dim>& faces_;
-  double round_off_;                 ///< of the balance, m3/s
-  ElementField<Dim> side_storage_;   ///< slope of the rate of displacement, m3/(s Pa)
-  ElementField<Dim> gain_;           ///< dk_r/dp at a side over k_r of the element, 1/Pa
+  double round_off_;                ///< of the balance, m3/s
+  ElementField<Dim> side_storage_;  ///< slope of the rate of displacement, m3/(s Pa)
+  ElementField<Dim> gain_;          ///< dk_r/dp at a side over k_r of the element, 1/Pa
+  std::vector<std::array<double, 2>> steepest_;  ///< `FlowSoils::steepest` per element
   std::vector<int> level_elements_;  ///< whose first face fixes the level of a sealed piece
   Eigen::VectorXd step_;             ///< per unknown, Pa
 };

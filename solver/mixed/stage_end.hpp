@@ -13,11 +13,12 @@ ElementField<Dim> air_at(const MixedModel<Dim>& model, const std::vector<double>
                          const std::vector<double>& porosity) {
   const Grid<Dim>& grid = model.grid;
   ElementField<Dim> air(model.soils.saturated() ? 0 : grid.mesh.elements.size());
+  if (air.empty()) return air;
+  const SideStates<Dim> sides(model, face_pressure);
   for_each_index(static_cast<int>(air.size()), model.settings.threads, [&](int e) {
     const double share = porosity[e] * grid.volume[e] / (Dim + 1);
     for (int k = 0; k <= Dim; ++k) {
-      const double pressure = face_pressure[grid.element_face[e][k]];
-      air[e][k] = share * (1.0 - model.soils.at(e, pressure).saturation);
+      air[e][k] = share * (1.0 - sides.at(e, k).saturation);
     }
   });
   return air;
@@ -35,6 +36,9 @@ struct StageEnd {
       state.face_pressure[f] = stage.faces.is_held(f) ? stage.faces.condition(f).value
                                                       : stage.base.face_pressure[f] + rise[f];
     });
+    if (stage.retains) {
+      state.air = air_at(model, state.face_pressure, stage.coefficients.porosity);
+    }
     find_face_flux(stage);
     flux_through = face_flux;
     stage.for_each_face([&](int f) {
@@ -42,7 +46,7 @@ struct StageEnd {
       const int e = grid.face_left[f];
       flux_through[f] += stage.stored(e, grid.side_of(e, f), rise[f]);
     });
-    if (stage.retains) settle_air(stage);
+    if (stage.retains && !stage.is_steady()) settle_air(stage);
     state.velocity.resize(stage.flux.size());
     stage.for_each_element(
         [&](int e) { state.velocity[e] = stage.flux[e] / stage.coefficients.porosity[e]; });
@@ -68,8 +72,7 @@ struct StageEnd {
         const int f = grid.element_face[e][k];
         net_outflow[e] -= stage.storage[e] * rise[f];
         if (stage.displaced.empty()) continue;
-        const double saturation = model.soils.at(e, state.face_pressure[f]).saturation;
-        stage.displaced[e][k] = stage.displacement_rate(e, k, saturation);
+        stage.displaced[e][k] = stage.displacement_rate(e, k, state.air[e][k]);
         net_outflow[e] -= stage.displaced[e][k];
       }
     });
@@ -108,11 +111,9 @@ struct StageEnd {
     stage.faces.correction().correct(face_flux, net_outflow);
   }
 
-  /// Sets the air in each element to what the fluxes leave there, exactly.
+  /// Corrects the air in each element to what the fluxes leave there, exactly.
   void settle_air(const MixedStage<Dim>& stage) {
     const Grid<Dim>& grid = stage.model.grid;
-    state.air = air_at(stage.model, state.face_pressure, stage.coefficients.porosity);
-    if (stage.is_steady()) return;
     stage.for_each_element([&](int e) {
       // Difference between the air by the pressures and the air by the fluxes: round-off, or what
       // the iteration missed in a piece without an outlet.

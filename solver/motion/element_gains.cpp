@@ -14,8 +14,8 @@ std::vector<double> element_gains(const GainInput& in) {
     if (in.piece[e] < 0) continue;
     double& share = kept[in.piece[e]];
     const double difference = in.solid[e] - in.smooth_before[e];
-    if (in.smooth_after[e] + share * difference >= -round_off * in.volume[e]) continue;
-    share = std::max(0.0, in.smooth_after[e] / -difference);
+    const bool is_less = in.smooth_after[e] + share * difference < -round_off * in.volume[e];
+    if (is_less && difference < 0.0) share = std::max(0.0, in.smooth_after[e] / -difference);
   }
   std::vector<double> gain(count, 0.0);
   std::vector<double> sum(in.piece_count, 0.0);

@@ -29,9 +29,7 @@ PointsByElement::PointsByElement(int element_count, const std::vector<int>& elem
   for (const int e : element_of_point) ++begin_[e + 1];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   std::vector<int> next(begin_.begin(), begin_.end() - 1);
-  for (int i = 0; i < static_cast<int>(point_.size()); ++i) {
-    point_[next[element_of_point[i]]++] = i;
-  }
+  for (int i = 0; i < std::ssize(point_); ++i) point_[next[element_of_point[i]]++] = i;
 }
 
 template <int Dim>
@@ -43,7 +41,9 @@ std::vector<double> node_shares(const Grid<Dim>& grid, const SolidPoints<Dim>& p
     const int e = points.element[p];
     if (!counts(e)) continue;
     const auto shape = barycentric(grid.mesh, e, points.position[p]);
-    for (int a = 0; a <= Dim; ++a) share[grid.mesh.elements[e][a]] += shape[a] * volume[p];
+    // A point on a side of its element may lie beyond it by round-off.
+    const auto& nodes = grid.mesh.elements[e];
+    for (int a = 0; a <= Dim; ++a) share[nodes[a]] += std::max(0.0, shape[a]) * volume[p];
   }
   std::vector<double> around = grid.node_volume;
   if (!rigid.empty()) {

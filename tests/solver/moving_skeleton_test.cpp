@@ -346,6 +346,20 @@ TEST(SolidFlux, GainsOfAPieceAddUpToNothing) {
   EXPECT_GT(gain[1], 0.0);
 }
 
+/// A smooth volume below zero by round-off, where a point lies beyond a side of its element, once
+/// multiplied the differences of the whole piece.
+TEST(SolidFlux, AnElementWithLessThanNothingByRoundOffChangesNothingElse) {
+  const std::vector<double> before{0.5, 0.3, 0.0};
+  const std::vector<double> after{0.4, 0.4, -1e-11};
+  const std::vector<double> solid{0.52, 0.28, 1e-20};
+  const std::vector<double> volume(before.size(), 1.0);
+  const std::vector<int> piece{0, 0, 0};
+  const std::vector<double> gain = element_gains({before, after, solid, volume, 0.1, piece, 1});
+  EXPECT_NEAR(solid[0] + gain[0], 0.4 + 0.9 * 0.02, 1e-10);
+  EXPECT_NEAR(solid[1] + gain[1], 0.4 - 0.9 * 0.02, 1e-10);
+  EXPECT_NEAR(solid[2] + gain[2], 0.0, 1e-10);
+}
+
 /// The motion leaves nothing in the second element; the difference of the sums is another one's.
 TEST(SolidFlux, AnElementWithoutSolidTakesNoPartOfTheDifference) {
   const std::vector<double> before{0.5, 0.3};

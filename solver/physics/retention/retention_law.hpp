@@ -17,6 +17,8 @@ struct RetentionLaw;
 struct RetentionParameters {
   double alpha = 0.0;  ///< reciprocal of the suction head at which pores empty, 1/m
   double n = 0.0;      ///< exponent; larger for more uniform pore sizes
+
+  friend bool operator==(const RetentionParameters&, const RetentionParameters&) = default;
 };
 
 /// A soil under a pressure head psi.
@@ -43,6 +45,7 @@ struct RetentionModel {
   [[nodiscard]] double effective(double saturation) const {
     return std::max(0.0, (saturation - residual_saturation) / (1.0 - residual_saturation));
   }
+  friend bool operator==(const RetentionModel&, const RetentionModel&) = default;
 };
 
 /// A required parameter of a law, read from `[soil.NAME.retention]`.

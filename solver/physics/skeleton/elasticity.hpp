@@ -20,11 +20,12 @@ inline Eigen::Matrix3d elastic_matrix(const SkeletonParameters& p) {
 /// The response of a law that does not yield.
 inline PrincipalResponse elastic_response(const SkeletonParameters& p,
                                           const Eigen::Vector3d& trial) {
+  const double double_shear = 2.0 * p.shear_modulus();
   PrincipalResponse response;
   response.tangent = elastic_matrix(p);
-  response.stress = response.tangent * trial;
+  response.stress = double_shear * trial.array() + p.lame() * trial.sum();
   response.elastic_strain = trial;
-  response.shear_secant.setConstant(2.0 * p.shear_modulus());
+  response.shear_secant.setConstant(double_shear);
   return response;
 }
 

@@ -20,12 +20,6 @@ enum class Place { plane, edge_of_largest, edge_of_smallest, apex };
 
 /// Parameters of the law, for strains and stresses in descending order.
 struct Limit {
-  explicit Limit(const SkeletonParameters& p)
-      : sin_friction(std::sin(p.friction)),
-        sin_dilation(std::sin(p.dilation)),
-        strength(2.0 * p.cohesion * std::cos(p.friction)),
-        elastic(elastic_matrix(p)) {}
-
   /// Normal of the yield plane of two stresses: (1 + s) tau_i - (1 - s) tau_j = strength,
   /// s = sin phi. With s = sin psi it is the direction of plastic flow.
   [[nodiscard]] static Vector3d normal(int i, int j, double s) {
@@ -103,14 +97,16 @@ double secant(const PrincipalResponse& response, const Vector3d& trial, double d
 
 PrincipalResponse respond(const SkeletonParameters& p, const Vector3d& trial, double /*internal*/) {
   PrincipalResponse response = elastic_response(p, trial);
-  const Limit limit(p);
+  const double sin_friction = std::sin(p.friction);
+  const double strength = 2.0 * p.cohesion * std::cos(p.friction);
   const double largest = response.stress.maxCoeff();
   const double smallest = response.stress.minCoeff();
-  const double excess = largest - smallest + (largest + smallest) * limit.sin_friction;
+  const double excess = largest - smallest + (largest + smallest) * sin_friction;
   // A stress on the limit within round-off does not yield.
   const double round_off =
-      1e-12 * (std::abs(largest) + std::abs(smallest) + limit.strength) + 1e-14 * p.young;
-  if (excess <= limit.strength + round_off) return response;
+      1e-12 * (std::abs(largest) + std::abs(smallest) + strength) + 1e-14 * p.young;
+  if (excess <= strength + round_off) return response;
+  const Limit limit{sin_friction, std::sin(p.dilation), strength, response.tangent};
 
   std::array<int, 3> order{0, 1, 2};
   std::ranges::sort(order, [&](int a, int b) { return trial[a] > trial[b]; });

@@ -26,6 +26,7 @@ FinesFunction::FinesFunction(std::vector<std::pair<double, double>> all) : pairs
 }
 
 double FinesFunction::value(double fines_left) const {
+  if (pairs.size() == 1) return pairs.front().second;
   const auto after =
       std::ranges::upper_bound(pairs, fines_left, {}, [](const auto& pair) { return pair.first; });
   if (after == pairs.begin()) return pairs.front().second;
