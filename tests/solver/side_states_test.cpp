@@ -25,8 +25,8 @@ TEST(SideStates, AreThoseOfEachElementsOwnSoil) {
     model.soils.soil_share.push_back(e % 4 == 0 ? 0.5 : 1.0);
   }
   model.soils.free_space = {law, 0.0, {.alpha = 20.0, .n = 3.0}};
-  std::vector<double> pressure;
-  for (int f = 0; f < grid.face_count(); ++f) pressure.push_back(-500.0 * (f % 7) + 500.0);
+  std::vector<double> pressure(grid.face_count());
+  for (int f = 0; f < grid.face_count(); ++f) pressure[f] = -500.0 * (f % 7) + 500.0;
   const SideStates<2> sides(model, pressure);
   int of_two = 0;  // faces between soils that differ
   for (int e = 0; e < mesh.element_count(); ++e) {

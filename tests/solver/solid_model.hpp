@@ -28,7 +28,8 @@ inline Mesh<2> crossed_mesh(int nx, int ny, double width, double height) {
       const int middle = mesh.node_count();
       mesh.nodes.push_back(0.5 * (mesh.nodes[corners[0]] + mesh.nodes[corners[2]]));
       for (int k = 0; k < 4; ++k) {
-        mesh.elements.push_back({corners[k], corners[(k + 1) % 4], middle});
+        const std::array<int, 3> element{corners[k], corners[(k + 1) % 4], middle};
+        mesh.elements.push_back(element);
       }
     }
   }
