@@ -26,7 +26,7 @@ inline Mesh<2> crossed_mesh(int nx, int ny, double width, double height) {
       const int a = j * (nx + 1) + i;
       const std::array<int, 4> corners{a, a + 1, a + nx + 2, a + nx + 1};
       const int middle = mesh.node_count();
-      mesh.nodes.push_back(0.5 * (mesh.nodes[corners[0]] + mesh.nodes[corners[2]]));
+      mesh.nodes.emplace_back(0.5 * (mesh.nodes[corners[0]] + mesh.nodes[corners[2]]));
       for (int k = 0; k < 4; ++k) {
         const std::array<int, 3> element{corners[k], corners[(k + 1) % 4], middle};
         mesh.elements.push_back(element);
