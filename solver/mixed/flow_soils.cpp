@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grid/parallel.hpp"
-#include "mixed/side_states.hpp"
 #include "physics/drag.hpp"
 
 namespace suffuse {
@@ -51,16 +49,6 @@ FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,
   return result;
 }
 
-template <int Dim>
-SideStates<Dim>::SideStates(const MixedModel<Dim>& model, const std::vector<double>& pressure)
-    : model_(model), pressure_(pressure), of_left_(pressure.size()) {
-  for_each_index(model.grid.face_count(), model.settings.threads, [&](int f) {
-    of_left_[f] = model.soils.at(model.grid.face_left[f], pressure[f]);
-  });
-}
-
-template class SideStates<2>;
-template class SideStates<3>;
 template FlowSoils<2> flow_soils(const Scene&, const SoilMap<2>&, const std::vector<SoilFilling>&);
 template FlowSoils<3> flow_soils(const Scene&, const SoilMap<3>&, const std::vector<SoilFilling>&);
 

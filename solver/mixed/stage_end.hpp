@@ -31,14 +31,13 @@ struct StageEnd {
       : rise(std::move(rise_of_face)), face_flux(rise.size()) {
     const MixedModel<Dim>& model = stage.model;
     const Grid<Dim>& grid = model.grid;
+    const std::vector<double>& porosity = stage.coefficients.porosity;
     state.face_pressure.resize(rise.size());
     stage.for_each_face([&](int f) {
       state.face_pressure[f] = stage.faces.is_held(f) ? stage.faces.condition(f).value
                                                       : stage.base.face_pressure[f] + rise[f];
     });
-    if (stage.retains) {
-      state.air = air_at(model, state.face_pressure, stage.coefficients.porosity);
-    }
+    if (stage.retains) state.air = air_at(model, state.face_pressure, porosity);
     find_face_flux(stage);
     flux_through = face_flux;
     stage.for_each_face([&](int f) {
@@ -48,8 +47,7 @@ struct StageEnd {
     });
     if (stage.retains && !stage.is_steady()) settle_air(stage);
     state.velocity.resize(stage.flux.size());
-    stage.for_each_element(
-        [&](int e) { state.velocity[e] = stage.flux[e] / stage.coefficients.porosity[e]; });
+    stage.for_each_element([&](int e) { state.velocity[e] = stage.flux[e] / porosity[e]; });
   }
 
   std::vector<double> rise;
