@@ -75,7 +75,7 @@ class MassAccounts {
   [[nodiscard]] std::size_t count() const { return faces_.size(); }
   /// Sets the initial storage, per account.
   void open(std::vector<Stored> initial) { initial_ = std::move(initial); }
-  /// Initial storage of an account. Account 0 is the whole model, account r + 1 is region r.
+  /// Storage at the start. Account 0 is that of the whole model, account r + 1 that of region r.
   [[nodiscard]] const Stored& initial(std::size_t account) const { return initial_[account]; }
 
   /// Books masses that crossed each face along its normal, kg.

@@ -241,11 +241,10 @@ template <int Dim>
 std::vector<double> ImplicitMixed<Dim>::relative_conductivity(
     const std::vector<double>& face_pressure) const {
   if (soils().saturated()) return {};
+  const SideStates<Dim> sides(model_, face_pressure);
   std::vector<double> result(model_.grid.volume.size(), 0.0);
   for_each_index(model_.grid.mesh.element_count(), model_.settings.threads, [&](int e) {
-    for (const int f : model_.grid.element_face[e]) {
-      result[e] += soils().at(e, face_pressure[f]).relative_conductivity / (Dim + 1);
-    }
+    for (int k = 0; k <= Dim; ++k) result[e] += sides.at(e, k).relative_conductivity / (Dim + 1);
   });
   return result;
 }

@@ -4,6 +4,7 @@
 /// digits, and the air in each element that follows from them.
 
 #include "mixed/mixed_stage.hpp"
+#include "mixed/side_states.hpp"
 
 namespace suffuse {
 

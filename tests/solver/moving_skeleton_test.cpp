@@ -346,8 +346,8 @@ TEST(SolidFlux, GainsOfAPieceAddUpToNothing) {
   EXPECT_GT(gain[1], 0.0);
 }
 
-/// A smooth volume below zero by round-off, where a point lies beyond a side of its element, once
-/// multiplied the differences of the whole piece.
+/// Where a point lies beyond a side of its element by round-off, the smooth volume of an element
+/// may be below zero. This does not change the gains of other elements.
 TEST(SolidFlux, AnElementWithLessThanNothingByRoundOffChangesNothingElse) {
   const std::vector<double> before{0.5, 0.3, 0.0};
   const std::vector<double> after{0.4, 0.4, -1e-11};
