@@ -23,6 +23,8 @@ constexpr double porosity_round_off = 1e-12;
 /// Round-off of a place on the border of the mesh, relative to an element.
 constexpr double on_the_edge = 1e-9;
 
+constexpr auto needs_three = "three numbers: the mesh is three-dimensional";
+
 std::string in_quotes(const std::string& name) {
   return '"' + name + '"';
 }
@@ -78,6 +80,9 @@ class SceneCheck {
   }
 
   void check_directions() {
+    for (const std::string& key : document_.plane_vectors) {
+      if (Dim == 3) report(key, "two numbers, of x and y", needs_three);
+    }
     check_two_dimensional("gravity", document_.scene.gravity);
     for (const Soil& soil : document_.scene.soils) {
       check_two_dimensional("soil." + soil.region + ".porosity_gradient", soil.porosity_gradient);
@@ -85,8 +90,7 @@ class SceneCheck {
     }
     for (const BoundaryCondition& boundary : document_.scene.boundaries) {
       if (Dim == 2 || !boundary.traction || boundary.traction->given == 3) continue;
-      report(boundary.key + ".traction", "two numbers, of x and y",
-             "three numbers: the mesh is three-dimensional");
+      report(boundary.key + ".traction", "two numbers, of x and y", needs_three);
     }
   }
 

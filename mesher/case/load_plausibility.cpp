@@ -23,7 +23,10 @@ class WaterLoads : private PlausibilityBase<Dim> {
   std::vector<std::string> run() {
     if (!scene_.moves() || this->has_free_water() || !has_gravity(scene_.gravity)) return {};
     const std::vector<Ground> ground = ground_that_moves();
-    for (const BoundaryCondition& b : scene_.boundaries) check_pressure(b, ground);
+    for (const BoundaryCondition& b : scene_.boundaries) {
+      check_pressure(b, ground);
+      check_traction(b, ground);
+    }
     check_bare_ground(ground);
     return std::move(warnings_);
   }
@@ -89,6 +92,29 @@ class WaterLoads : private PlausibilityBase<Dim> {
     warn(joined(b.key, "pressure"),
          "presses on the water in the pores alone, not on the soil, which moves; water that stands "
          "on it has a head, other loads are a traction");
+  }
+
+  /// A traction holds the pressure of the water too, which it takes the place of.
+  void check_traction(const BoundaryCondition& b, const std::vector<Ground>& ground) {
+    if (!b.head || !b.traction || b.fix != Fixing::none) return;
+    const auto down = Eigen::Map<const Vector<Dim>>(scene_.gravity.data()).normalized();
+    double load = 0.0;
+    for (const auto& [time, components] : b.traction->knots) {
+      load = std::max(load, Eigen::Map<const Vector<Dim>>(components.data()).dot(down));
+    }
+    const double head = b.head->range(0.0, scene_.time.end).second;
+    const std::set<Face> faces = faces_of(b);
+    for (const Ground& g : ground) {
+      const double depth = head - height(g.centre, scene_.gravity);
+      const double pressure = unit_weight(scene_.liquid.density, scene_.gravity) * depth;
+      if (!faces.contains(g.face) || depth <= noticed_depth * this->height_of_model()) continue;
+      if (load >= pressure) continue;
+      warn(joined(b.key, "traction"),
+           "takes the place of the pressure of the water, which stands " + short_number(depth) +
+               " m high on the ground at " + place_text<Dim>(g.centre) + " and presses with " +
+               short_number(pressure) + " Pa there; a traction has to hold that pressure too");
+      return;
+    }
   }
 
   /// Water above ground without a boundary: up to the level at the start, and to the heads of

@@ -25,7 +25,7 @@ constexpr double lightest_grains = 1500.0;     // kg/m3
 constexpr double fastest_soil = 1.0;           // m/s
 /// m of water: fine sand drains at higher suctions.
 constexpr double unnoticed_suction = 0.5;
-/// Least number of elements along an `erosion.length`.
+/// Least number of elements along an `erosion.length`, and along a `field.correlation`.
 constexpr double elements_of_length = 2.0;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -42,6 +42,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     check_gravity();
     check_resolution();
     check_erosion_lengths();
+    check_lengths_of_fields();
     return std::move(warnings_);
   }
 
@@ -169,6 +170,19 @@ class Plausibility : private PlausibilityBase<Dim> {
       ++count;
     }
     return count == 0 ? 0.0 : regular_edge<Dim>(volume / count);
+  }
+
+  void check_lengths_of_fields() {
+    for (const Soil& soil : scene_.soils) {
+      if (!soil.field.varies()) continue;
+      const double length = std::min(soil.field.along, soil.field.across);
+      const double size = element_size(soil.region);
+      if (length >= elements_of_length * size) continue;
+      warn(joined(table_of(soil), "field.correlation"),
+           short_number(length) + " m is shorter than two elements of " + short_number(size) +
+               " m, so that the mesh decides how the conductivity varies; three elements and more "
+               "are usual");
+    }
   }
 
   void check_erosion_lengths() {

@@ -332,6 +332,7 @@ struct SceneDocument {
   /// Text of each table that a boundary takes from a file, by the file's name in the scene: the
   /// next stage reads the same numbers on any machine.
   std::map<std::string, std::string> files;
+  std::set<std::string> plane_vectors;  ///< keys of vectors that are given with two numbers
 
   /// Place where `key` was given; otherwise that of the nearest enclosing table, or the file's
   /// name.

@@ -18,6 +18,8 @@ namespace {
 
 /// Largest number of rows of a table: more are probably a mistake and would fill the disk.
 constexpr double max_rows = 1e6;
+/// Largest number of time steps: a run with more would not end.
+constexpr double max_steps = 1e9;
 
 class Checks : private SceneCheckBase {
  public:
@@ -424,6 +426,13 @@ class Checks : private SceneCheckBase {
     const OutputSettings& output = scene_.output;
     if (time.step && *time.step > time.end) {
       report("time.step", shown_value(*time.step), "dt <= T = " + shown_number(time.end) + " s",
+             {"time.end"});
+    }
+    if (time.step && *time.step * max_steps < time.end) {
+      report("time.step", shown_value(*time.step),
+             "at least " + shown_number(time.end / max_steps) +
+                 " s, which makes a thousand million steps until T = " + shown_number(time.end) +
+                 " s",
              {"time.end"});
     }
     if (output.every * max_rows < time.end) {

@@ -48,7 +48,8 @@ class SceneReader {
     for (std::size_t i = 0; i < overrides.size(); ++i) apply_override(overrides[i], i + 1);
   }
 
-  Scene read() {
+  /// What the scene says, without the text that it was read from.
+  SceneDocument read() {
     check_table(root_, "", "");
     inherit();
     collect_places(root_, "");
@@ -63,14 +64,9 @@ class SceneReader {
                  .refused = [this](const std::string& key) { return refused_.contains(key); },
                  .report = [this](const Contradiction& found) { report(found); }});
     throw_problems();
-    return scene_;
-  }
-
-  [[nodiscard]] const std::map<std::string, std::string>& files() const { return files_; }
-  [[nodiscard]] std::map<std::string, std::string> where() const {
     std::map<std::string, std::string> where;
     for (const auto& [key, place] : places_) where.emplace(key, place.text);
-    return where;
+    return {path_, {}, {}, {}, scene_, std::move(where), files_, plane_vectors_};
   }
 
  private:
@@ -410,7 +406,12 @@ class SceneReader {
       node = node->find(path.substr(begin, end - begin));
       begin = end + 1;
     }
-    if (node && node->accepted) declared.store(scene_, instance.index, *node->accepted);
+    if (node && node->accepted) {
+      declared.store(scene_, instance.index, *node->accepted);
+      const auto* vector = std::get_if<std::vector<double>>(&*node->accepted);
+      const bool plane = declared.kind == ValueKind::vector && vector && vector->size() == 2;
+      if (plane) plane_vectors_.insert(joined(instance.key, path));
+    }
     if (node) return;
     if (declared.default_value) declared.store(scene_, instance.index, *declared.default_value);
     const bool unknown = without_inheritance_.contains(instance.table->name);
@@ -475,6 +476,7 @@ class SceneReader {
   std::string path_;
   const FileLoader& load_;
   std::map<std::string, std::string> files_;  ///< texts of the files read, by name
+  std::set<std::string> plane_vectors_;
   std::vector<Problem> problems_;
   SceneNode root_;
   std::set<std::string> without_inheritance_;  ///< soils whose `like` cannot be followed
@@ -489,11 +491,9 @@ class SceneReader {
 
 SceneDocument read_document(const std::string& text, const std::string& path,
                             const std::vector<std::string>& overrides, const FileLoader& load) {
-  SceneReader reader(text, path, overrides, load);
-  SceneDocument document{path, {}, text, overrides, {}, {}, {}};
-  document.scene = reader.read();
-  document.where = reader.where();
-  document.files = reader.files();
+  SceneDocument document = SceneReader(text, path, overrides, load).read();
+  document.text = text;
+  document.overrides = overrides;
   return document;
 }
 

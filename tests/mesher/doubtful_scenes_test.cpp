@@ -94,6 +94,8 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
                    {"gravity=[-5, -5]", "boundary[0].head=6", "initial.water_level=6"}),
             "");
   EXPECT_EQ(mended("pressure-in-kilopascal", {"boundary[1].pressure=80"}), "");
+  EXPECT_EQ(mended("traction-without-the-water", {"boundary[3].traction=[0, -2.5e4]"}), "");
+  EXPECT_EQ(mended("field-below-the-elements", {"soil.specimen.field.correlation=0.8"}), "");
   EXPECT_EQ(mended("load-taken-as-drained", {"time.end=1.3e7", "output.every=1e5"}), "");
   EXPECT_EQ(mended("load-taken-as-drained", {"boundary[3].traction=[[0, 0, 0], [60, 0, -1e4]]"}),
             "");

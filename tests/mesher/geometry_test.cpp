@@ -1014,6 +1014,27 @@ TEST_F(UserFile, ALoadInSpaceHasThreeNumbers) {
   EXPECT_EQ(message("[0.0, 0.0, -1e3]"), "nothing refused");
 }
 
+TEST_F(UserFile, APlaceInSpaceHasThreeNumbers) {
+  const auto message = [](const std::string& more) {
+    const SceneDocument scene = parse_scene(
+        "gravity = [0.0" + more + ", -9.81]\n" +
+            scene_text("[geometry]\nshape = \"box\"\nwidth = 1.0\ndepth = 1.0\nheight = 1.0\n"
+                       "[mesh]\nsize = 0.5\n",
+                       "porosity_gradient = [0.0, 0.01" + more + "]\n") +
+            "[[output.probe]]\nat = [0.5, 0.5" + more + "]\n",
+        "scene.toml", {"time.scheme=implicit", "initial.water_level=1"});
+    return refusal([&] { build_geometry_of<3>(scene); });
+  };
+  for (const std::string key :
+       {"gravity", "soil.specimen.porosity_gradient", "output.probe[0].at"}) {
+    EXPECT_NE(message("").find(key + ": got two numbers, of x and y; expected three numbers: the "
+                                     "mesh is three-dimensional"),
+              std::string::npos)
+        << message("");
+  }
+  EXPECT_EQ(message(", 0.0"), "nothing refused");
+}
+
 TEST_F(UserFile, OneEdgeTakesOneCondition) {
   const std::string both =
       "[[boundary]]\non = \"all\"\npressure = 0.0\n[[boundary]]\non = \"top\"\npressure = 1.0\n";
