@@ -22,15 +22,15 @@ SoilExtent extent_of(const SolidPoints<Dim>& points, const Supports<Dim>& suppor
     for (const Vector<Dim>& force : loads) extent.load += force.norm();
   }
   const Vector<Dim> down = downwards<Dim>(scene.gravity);
-  int low = -1;
-  int high = -1;
+  int top = -1;
+  int bottom = -1;
   for (int p = 0; p < points.size(); ++p) {
     if (supports.is_rigid(points.element[p])) continue;
     const double depth = points.position[p].dot(down);
-    if (low < 0 || depth < points.position[low].dot(down)) low = p;
-    if (high < 0 || depth >= points.position[high].dot(down)) high = p;
+    if (top < 0 || depth < points.position[top].dot(down)) top = p;
+    if (bottom < 0 || depth >= points.position[bottom].dot(down)) bottom = p;
   }
-  if (low >= 0) extent.height = (points.position[high] - points.position[low]).dot(down);
+  if (top >= 0) extent.height = (points.position[bottom] - points.position[top]).dot(down);
   return extent;
 }
 

@@ -81,7 +81,7 @@ template <int Dim>
 void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
                         const std::vector<PointSkeleton>& skeleton, const StartLoads<Dim>& loads,
                         SolidPoints<Dim>& points) {
-  const Eigen::Vector3d up = Eigen::Vector3d(loads.gravity.data()).normalized();
+  const Eigen::Vector3d vertical = Eigen::Vector3d(loads.gravity.data()).normalized();
   const double ratio = *loads.earth_pressure;
   for (int p = 0; p < points.size(); ++p) {
     const auto& [law, parameters] = elastic[p];
@@ -89,10 +89,11 @@ void set_earth_pressure(const std::vector<PointSkeleton>& elastic,
         skeleton_response<Dim>(*law, parameters, points.skeleton[p],
                                Eigen::Matrix<double, Dim, Dim>::Identity())
             .stress;
-    const double vertical = up.dot(stress * up);
-    points.skeleton[p].elastic_b = elastic_b_under(
-        skeleton[p].parameters,
-        vertical * (ratio * Eigen::Matrix3d::Identity() + (1.0 - ratio) * up * up.transpose()));
+    const double vertical_stress = vertical.dot(stress * vertical);
+    points.skeleton[p].elastic_b =
+        elastic_b_under(skeleton[p].parameters,
+                        vertical_stress * (ratio * Eigen::Matrix3d::Identity() +
+                                           (1.0 - ratio) * vertical * vertical.transpose()));
   }
 }
 
