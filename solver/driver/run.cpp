@@ -251,7 +251,8 @@ class Run final : public OutputSink<Dim> {
       return message + "\n" + folder_ +
              " is no longer there: it was removed or renamed while the run wrote into it";
     }
-    return message + "\nWhat was written before is complete. When this is mended, go on with:\n  " +
+    return message +
+           "\nWhat was written before is complete. When this is corrected, go on with:\n  " +
            resume_command_;
   }
 

@@ -27,7 +27,7 @@ using test::Outcome;
 using test::Process;
 
 const std::string advice =
-    "\nWhat was written before is complete. When this is mended, go on with:\n  suffuse-solver ";
+    "\nWhat was written before is complete. When this is corrected, go on with:\n  suffuse-solver ";
 
 /// A place with an undisturbed run.
 class Fault : public testing::Test {
