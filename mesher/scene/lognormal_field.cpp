@@ -7,7 +7,7 @@
 namespace suffuse {
 namespace {
 
-/// So many waves that the sum is Gaussian to a percent three deviations away from its mean.
+/// Number of waves. With it the sum is Gaussian to a percent three deviations away from its mean.
 constexpr int wave_count = 500;
 
 /// Random numbers that are the same with every library: its distributions are not.

@@ -278,7 +278,7 @@ double BoundaryValues<Dim>::longest_step(double time, double share) const {
   for (const Varying& varying : varying_) {
     for (const TimeFunction* value : varying_values(varying.boundary)) {
       const auto [low, high] = value->range(0.0, scene_.time.end);
-      // In which the value would change by its whole range, s.
+      // Time in which the value would change by its whole range, s.
       const double whole = (high - low) / std::abs(value->slope(time));
       if (whole > jump * scene_.time.end) longest = std::min(longest, share * whole);
     }

@@ -40,9 +40,9 @@ struct DischargeBounds {
   /// this sum. Or elements store water and the sum follows from that alone: its errors are unknown.
   std::optional<Interval> flux_out;
   StepEstimates flux_out_step;  ///< errors of the last step in it, m3/s
-  /// What leaves through boundaries that hold heads. Where that is known by balance, as a well has
-  /// the rest: the discharge of the boundary with a head of which least is known, m3/s. None if
-  /// nothing flows from one head to another.
+  /// What leaves through boundaries that hold heads, m3/s. If a well balances the discharge: that
+  /// of the boundary with a head whose discharge is known least accurately. None if nothing flows
+  /// from one head to another.
   std::optional<Interval> least_known;
   /// The largest conductivity times the largest head, or the size of the model if that is larger,
   /// and the size of the model: no discharge is larger by orders of magnitude, m3/s.

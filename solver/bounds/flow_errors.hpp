@@ -1,7 +1,7 @@
 #pragma once
 
 /// How far a flow can be off: what its last step adds is recorded as it is taken, and the bounds
-/// are found when somebody asks.
+/// are computed at the first call.
 
 #include <optional>
 #include <vector>

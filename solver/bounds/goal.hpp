@@ -33,7 +33,7 @@ template <int Dim>
 StepEstimates step_estimates(const SeepageProblem<Dim>& problem, const Goal& goal,
                              const FieldPair<Dim>& dual);
 
-/// By which an interval of a discharge is wider, for round-off, m3/s.
+/// Widening of a discharge's interval for round-off, m3/s.
 template <int Dim>
 double margin_of(const SeepageProblem<Dim>& problem);
 

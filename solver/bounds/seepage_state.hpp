@@ -9,7 +9,7 @@
 
 namespace suffuse {
 
-/// By how much the last step may be off.
+/// Largest errors of the last step.
 struct LastStepErrors {
   // Errors of the step in time, at its end; empty where they are not known.
   std::vector<double> face_pressure = {};  ///< Pa

@@ -7,12 +7,12 @@ namespace {
 
 /// Shortest step in equilibrium, over the time in which soil falls through an element.
 constexpr double short_step = 1e-2;
-/// So many steps with inertia get nowhere if they take less than this share of that time together:
+/// Inertia makes no progress if this many steps together take less than this share of that time:
 /// soil that falls through the height of the model takes some 1e-2 of it in each.
 constexpr int stuck_steps = 500;
 constexpr double stuck_time = 1e-3;
-/// Steps in equilibrium get nowhere if so many trials have no solution within this share of the
-/// time since the start.
+/// Steps in equilibrium make no progress if this many trials have no solution within this share of
+/// the time since the start.
 constexpr int stuck_trials = 200;
 constexpr double stuck_share = 1e-2;
 

@@ -31,9 +31,9 @@ struct SoftStiffness {
   /// Against the gradient: without it a piece of soil connected by one node can rotate freely, and
   /// Newton's method stalls.
   double gradient = 0.01;
-  /// Against the strain of soil that does not yield, per node, of which the largest of an element
-  /// counts: without it little holds the nodes of a surface that sinks through elements. Soil that
-  /// yields would stand where it fails. Empty: none.
+  /// Stiffness against strain, per node. An element takes the largest of its nodes. Without it
+  /// little holds the nodes of a surface that sinks through elements. It does not act on soil that
+  /// yields, which would stand where it fails. Empty: none.
   std::vector<double> strain = {};
 };
 /// Inertia holds what one node connects.
@@ -103,7 +103,7 @@ class Equilibrium final : public ForceBalance<Dim> {
   }
 
   /// Inertia over a step of `dt`, s: the mass of each node, kg, and its velocity at the start, m/s.
-  /// That of light nodes replaces the soft stiffness against the gradient.
+  /// The inertia of light nodes replaces the soft stiffness against the gradient.
   void set_inertia(const std::vector<double>& mass, const NodeVectors<Dim>& velocity, double dt);
 
   /// Whether a displacement leaves each element with soil more than `min_ratio` of its volume.

@@ -25,8 +25,8 @@ struct MovingSolid {
   double load_change = 0.0;             ///< largest change of tractions in the run, Pa
   double stiffness = 0.0;               ///< largest modulus of soil that cannot move sideways, Pa
   std::vector<double> compressibility;  ///< per element, m3/Pa
-  /// In which the soil moves at the start, s: unstable soil falls through an element, or soil is
-  /// dug out or filled in; 0: it is in equilibrium.
+  /// Time in which the soil moves at the start, s: unstable soil falls through an element, or soil
+  /// is dug out or filled in; 0: it is in equilibrium.
   double time_of_change = 0.0;
 };
 

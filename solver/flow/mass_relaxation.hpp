@@ -8,7 +8,7 @@
 ///   source = outflow that keeps the mismatch from growing
 ///          + mismatch / max(4 dt, time in which the flow fills an element)
 ///
-/// For equal steps a mismatch falls to 3/4 of itself with each.
+/// If steps are equal, each step leaves 3/4 of a mismatch.
 
 #include <utility>
 #include <vector>

@@ -76,13 +76,13 @@ template <int Dim>
   throw NumericalError(message.str());
 }
 
-/// By how much each element's water exceeds its room, m3, and the largest of that over the pores.
+/// Water of each element beyond its room, m3, and the largest ratio of it to the pores' volume.
 struct Mismatch {
   std::vector<double> volume;
   double of_pores = 0.0;
 };
 
-/// When masses of water are compared with their room, s, and whether they have to fit.
+/// Time at which masses of water are compared with their room, s, and whether they have to fit.
 struct Fit {
   double time;
   bool is_needed;

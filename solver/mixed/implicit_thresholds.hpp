@@ -19,7 +19,7 @@ struct ImplicitThresholds {
   double unsolved_shrinkage = 0.25;
   /// A step below this share of the run whose iteration does not converge ends the run.
   double min_unsolved_step = 1e-9;
-  /// As `min_unsolved_step` for soil with inertia, with which a shorter step is easier to solve.
+  /// The same limit for soil with inertia, lower because a shorter step is then easier to solve.
   double min_unsolved_inertial_step = 1e-12;
   /// The longest step that may follow one of soil with inertia that was not shortened, in lengths.
   double inertial_growth = 1.2;
@@ -48,9 +48,9 @@ struct ImplicitThresholds {
   double max_unresolved = 2.0;
   /// Steps below this share of the time reached are rounded to differences of two times.
   double rounded_step = 1e-10;
-  /// At the start a step below this share of the run is too short ...
+  /// A step at the start is too short if it is below both: this share of the run,
   double min_step_of_run = 1e-20;
-  /// ... if it is below this share of the shortest time in which the flow changes, too.
+  /// and this share of the shortest time in which the flow changes.
   double min_step_of_change = 1e-10;
 
   /// Flux errors in unsaturated soil that last for less than this share of the run are weighted

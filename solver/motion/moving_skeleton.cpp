@@ -239,7 +239,7 @@ template <int Dim>
 MotionStep<Dim> MovingSkeleton<Dim>::start_step(MotionForcing forcing,
                                                 std::optional<MotionStep<Dim>> last) const {
   std::vector<double> loss = losses(points_.volume, this->porosity_, forcing.porosity);
-  // Without inertia the length acts by the soft stiffness alone, which stays that of the first try.
+  // Without inertia the length enters only through the soft stiffness, kept from the first try.
   const bool continues = last && last->has_inertia == inertia_.acts() && last->loss == loss &&
                          (!last->has_inertia || last->forcing.duration == forcing.duration);
   if (continues) {

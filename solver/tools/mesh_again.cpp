@@ -53,7 +53,7 @@ struct KnownDischarge {
 template <int Dim>
 KnownDischarge known_at_start(Case<Dim> c, int threads) {
   c.document.scene.initial_flow = InitialFlow::steady;
-  c.document.scene.output.probes.clear();  // nobody asks what is known there
+  c.document.scene.output.probes.clear();  // bounds at probes are not needed here
   const Plan plan = make_plan(c, {.threads = threads});
   DischargeBounds bounds = make_model(c, plan)->flow().discharge_bounds().value();
   KnownDischarge known;
