@@ -27,7 +27,7 @@ class LognormalField {
 
   /// k over its mean at a place, m; `z` is the height in a plane section, `y` then 0.
   [[nodiscard]] double at(double x, double y, double z) const;
-  /// At a place of two (x, height) or three coordinates.
+  /// The same ratio at a place of two (x, height) or three coordinates.
   template <class Position>
   [[nodiscard]] double at(const Position& x) const {
     return x.size() == 2 ? at(x[0], 0.0, x[1]) : at(x[0], x[1], x[2]);

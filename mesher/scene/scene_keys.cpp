@@ -161,7 +161,7 @@ Declaration instruction(const char* pattern, const char* sentence) {
   return d;
 }
 
-/// As `instruction`, true or false.
+/// Declares an `instruction` that is true or false.
 Declaration switch_of(const char* pattern, const char* sentence) {
   Declaration d = instruction(pattern, sentence);
   d.kind = ValueKind::boolean;

@@ -480,7 +480,7 @@ class SceneReader {
   std::vector<Problem> problems_;
   SceneNode root_;
   std::set<std::string> without_inheritance_;  ///< soils whose `like` cannot be followed
-  /// By soil: missing required keys, and the expected value of each.
+  /// Missing required keys and the expected value of each, by soil.
   std::map<std::string, std::vector<std::pair<std::string, std::string>>> missing_;
   std::set<std::string> refused_;  ///< keys whose value is not allowed
   Places places_;

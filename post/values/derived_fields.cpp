@@ -89,7 +89,7 @@ std::vector<double> fines_left(const ResultsReader& results, std::size_t index,
   return values;
 }
 
-/// At the vertices of elements: n S - n_f.
+/// Volume fraction of water at the vertices of elements, n S - n_f.
 std::vector<double> water_at_vertices(const ResultsReader& results, std::size_t index) {
   std::vector<double> values = results.field(index, "element_vertex", "porosity").values;
   const std::vector<double> fines = results.field(index, "element_vertex", "fines_fraction").values;

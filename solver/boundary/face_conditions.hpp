@@ -67,7 +67,7 @@ struct ReservoirLevel {
   double rate = 0.0;                         ///< dH/dt of the last step, m/s
 };
 
-/// When the values of boundaries count in a stage of a step, s.
+/// Times whose boundary values a stage of a step uses, s.
 struct BoundaryTime {
   double end = 0.0;        ///< of heads and pressures: the end of the stage
   double of_fluxes = 0.0;  ///< of fluxes and rain

@@ -101,7 +101,7 @@ class SeepageProblem {
   [[nodiscard]] std::vector<double> outflows() const;
   /// Whether the fluxes are those that the heads drive through the conductivities of now.
   [[nodiscard]] bool follows_conductivity() const;
-  /// At the centres of faces, m.
+  /// Heads at the centres of faces, m.
   [[nodiscard]] std::vector<double> heads(const std::vector<double>& face_pressure) const;
   [[nodiscard]] double relative_conductivity(std::size_t element) const;
   [[nodiscard]] bool holds_head(int face) const;

@@ -30,8 +30,8 @@ class Failure {
   /// Time of the last loss of equilibrium, s; 0: never, or at the start.
   [[nodiscard]] double time() const { return time_; }
 
-  /// Whether steps have become so short that the run gets nowhere: all those with inertia, or those
-  /// in equilibrium of which most trials have no solution.
+  /// Whether steps have become so short that the run makes no progress: all those with inertia, or
+  /// those in equilibrium of which most trials have no solution.
   [[nodiscard]] bool is_stuck() const;
 
   // From equilibrium to inertia, or to the end of the run.
@@ -77,7 +77,7 @@ class Failure {
   bool long_steps_ = false;    ///< a long step has followed the last sudden change
   int counted_steps_ = 0;      ///< steps with inertia since they were last counted ...
   double counted_time_ = 0.0;  ///< ... and their time, s
-  bool is_stuck_ = false;      ///< those steps got nowhere
+  bool is_stuck_ = false;      ///< those steps made no progress
   int unsolved_ = 0;           ///< trials in equilibrium that have had no solution ...
   double unsolved_since_ = 0;  ///< ... since this time, s
 };

@@ -22,9 +22,9 @@ constexpr double share_with_mobility = 1e-3;
 /// Elements whose suction acts on the soil by a smaller share have no such storage.
 constexpr double least_suction_share = 1e-3;
 constexpr int max_coupling_iterations = 40;
-/// The iteration is given up when it has come no nearer, by a tenth, in so many iterations: a
-/// shorter step takes less time. Near to agreement Anderson's mixing may have much to learn before
-/// it comes nearer.
+/// The iteration is given up when the difference has not fallen by a tenth in this many iterations:
+/// a shorter step takes less time. Near to agreement Anderson's mixing may have much to learn
+/// before the difference falls.
 constexpr int patience = 8;
 constexpr int patience_near_agreement = 16;
 constexpr double nearer = 0.9;

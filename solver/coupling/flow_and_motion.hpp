@@ -41,7 +41,7 @@ struct FlowStart {
   double tolerance = 0.0;               ///< of the pressures' error in a step, Pa
 };
 
-/// When the pressures of flow and motion agree.
+/// Limit of the difference below which the pressures of flow and motion agree.
 struct Agreement {
   double share = 0.0;      ///< of the largest change of the pressure in the step ...
   double most = 0.0;       ///< ... but no more than this, Pa
@@ -66,7 +66,7 @@ class FlowAndMotion {
                                 MotionForcing forcing, CoupledStep<Dim>& step) const;
 
  private:
-  /// As `solve`, of soil that moves. Throws NotConverged.
+  /// Does what `solve` does if the soil moves. Throws NotConverged.
   std::optional<Unsolved> iterate(ImplicitMixed<Dim>& scheme, const FlowStart<Dim>& start,
                                   CoupledStep<Dim>& step) const;
   /// Finds the step of soil that has come to rest: the flow through soil that does not move.
@@ -99,7 +99,7 @@ class FlowAndMotion {
   /// The values at faces where pressures act on the motion, zero at others.
   [[nodiscard]] Eigen::VectorXd at_soil(const Eigen::VectorXd& of_faces,
                                         const std::vector<double>& storage) const;
-  /// When they agree in the present step. `pressure`: the largest one at its start, Pa;
+  /// The limit in the present step. `pressure`: the largest one at its start, Pa;
   /// `tolerance`: see `FlowStart`.
   [[nodiscard]] Agreement agreement_at(double pressure, double tolerance) const;
   /// Initial guess for a load that drained soil cannot bear: pressures if almost no water leaves.

@@ -17,7 +17,7 @@ namespace suffuse {
 struct SolverOptions {
   int threads = 1;
   bool no_skip = false;
-  /// That share the run; all have to make the same calls.
+  /// Ranks that share the run; all have to make the same calls.
   std::shared_ptr<const Ranks> ranks = std::make_shared<Ranks>();
 };
 

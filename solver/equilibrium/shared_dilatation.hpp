@@ -59,7 +59,7 @@ class SharedDilatation {
   /// \param mean_ratio  Jm per element
   void add_tangent(const DisplacementUnknowns<Dim>& unknowns, const std::vector<double>& mean_ratio,
                    const StiffnessPattern<Dim>& pattern, Eigen::SparseMatrix<double>& matrix) const;
-  /// As `add_tangent`, of elastic elements without stress and displacement.
+  /// Adds what `add_tangent` does, for elastic elements without stress and displacement.
   /// \param stiffness  of the mean stress against the dilatation, per element, Pa m3
   void add_elastic(const Grid<Dim>& grid, const DisplacementUnknowns<Dim>& unknowns,
                    const std::vector<double>& stiffness, const StiffnessPattern<Dim>& pattern,

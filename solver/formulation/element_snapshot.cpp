@@ -153,7 +153,7 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
                   std::move(pressure)};
 }
 
-/// On rank 0 the values of the whole model, on the others none.
+/// Gives rank 0 the values of the whole model, and the other ranks none.
 template <int Dim>
 void gather(const Grid<Dim>& grid, const SoilMap<Dim>& soils, Snapshot& snapshot) {
   const Ranks& ranks = grid.ranks();

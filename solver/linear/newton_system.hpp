@@ -52,7 +52,7 @@ class NewtonSystem {
     archive(counts_);
     archive_factor(archive, pattern, is_used);
   }
-  /// As `archive`, without the counts.
+  /// Archives all that `archive` does but the counts.
   void archive_factor(auto& archive, const Eigen::SparseMatrix<double>& pattern,
                       bool is_used = true) {
     archive(factored_);

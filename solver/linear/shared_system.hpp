@@ -32,7 +32,7 @@ class SharedSystem {
                              const Eigen::SparseMatrix<double>& tangent,
                              const Eigen::VectorXd& rhs);
 
-  /// In all calls so far; iterations are those of the preconditioner.
+  /// Counts of all calls so far; iterations are those of the preconditioner.
   [[nodiscard]] const SolveCounts& counts() const { return counts_; }
 
  private:

@@ -120,8 +120,8 @@ void MovingSkeleton<Dim>::find_filling() {
   const auto sums = [this](const std::vector<double>& of_points) {
     return sums_in_elements(this->grid_, points_, of_points, 1.0);
   };
-  // At the surface smoothed by nodes, as the drag would otherwise jump when points leave an
-  // element.
+  // Volumes at the surface are smoothed by nodes: the drag would otherwise jump when points leave
+  // an element.
   filling_ =
       soil_filling<Dim>(this->grid_, classes, SoilVolumes{sums(points_.volume), sums(solid)},
                         SoilVolumes{smooth(points_.volume), smooth(solid)}, element_porosity());

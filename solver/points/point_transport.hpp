@@ -20,7 +20,7 @@ namespace suffuse {
 struct RegionCrossings {
   std::vector<PointCrossing> points;
   /// Per region: fines that its solid gave minus those that its liquid received, kg, on all ranks.
-  /// At a border of regions fines of one may join liquid of the other.
+  /// Fines of one region may join liquid of another one at their border.
   std::vector<double> fines_out;
 };
 

@@ -35,7 +35,7 @@ class PointsAlongFaces final : public PointTransport<Dim> {
  private:
   void start_interval(const FlowProgress& flow) override;
   [[nodiscard]] double steps_needed(double start, const FlowProgress& flow) const override {
-    // In shares of the interval, because these volumes are those of the whole interval.
+    // These volumes are those of the whole interval, so the step is a share of it.
     const double allowed = longest_step(flow.volumes.liquid);
     return step_count(allowed, start, flow.end, {1e4, "the flow has run away"});
   }

@@ -40,7 +40,7 @@ fs::path shared_solver() {
                   "Suffuse where PETSc and MPI are installed (docs/use/ranks.md)");
 }
 
-/// Where what the processes print can be read, and where it is written; -1: nowhere else.
+/// Ends of a pipe for what the processes print: to read it, and to write it; -1: none.
 struct Pipe {
   int read = -1;
   int write = -1;

@@ -20,8 +20,8 @@ struct SharedEdge {
 /// Sets of nodes that edges connect.
 class SharedSets {
  public:
-  /// From the edges of all ranks, each given by one of them. A node without edges is given by one
-  /// to itself.
+  /// Finds the sets from the edges of all ranks, each given by one of them. A node without edges is
+  /// given by an edge to itself.
   SharedSets(const Ranks& ranks, const std::vector<SharedEdge>& own);
 
   /// The lowest node of the set of a node, which some edge has.

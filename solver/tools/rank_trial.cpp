@@ -18,8 +18,8 @@
 namespace suffuse {
 namespace {
 
-/// A trial whose steps are not given ends after so many steps and seconds of wall time, or after
-/// so many seconds.
+/// A trial whose steps are not given ends after `fewest_tried_steps` and `enough_seconds` of wall
+/// time, or after `most_seconds`.
 constexpr long fewest_tried_steps = 3;
 constexpr double enough_seconds = 3.0;
 constexpr double most_seconds = 15.0;

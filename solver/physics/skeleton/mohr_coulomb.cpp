@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Where the stress returns: to one plane, to the edge of two planes, or to the apex.
+/// Place to which the stress returns: to one plane, to the edge of two planes, or to the apex.
 enum class Place { plane, edge_of_largest, edge_of_smallest, apex };
 
 /// Parameters of the law, for strains and stresses in descending order.
