@@ -58,8 +58,8 @@ class BoundaryLoads {
   std::vector<int> boundary_;  ///< per surface: index of the scene's boundary entry
   std::vector<LoadedSurface<Dim>> surfaces_;
   std::vector<VirtualStress<Dim>> stress_;  ///< per surface
-  /// Boundaries, by index, and faces that outer water presses on beside soil. Where soil can give
-  /// way to free water they stand still: water fills the room and presses on (`add_free_water`).
+  /// Boundaries, by index, and faces of soil under outer water. Where soil can give way to free
+  /// water they stand still: water fills the room and presses on (`add_free_water`).
   std::vector<std::pair<int, std::vector<int>>> water_;
 };
 

@@ -43,7 +43,7 @@ Vector<Dim> vector_area(const std::vector<Vector<Dim>>& corner, const std::array
 /// The element that holds a place of a surface, or this one if the place is slightly above the
 /// mesh.
 template <int Dim>
-int element_beside(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
+int element_next_to(const Grid<Dim>& grid, int element, const Vector<Dim>& x) {
   const int e = element_at(grid, element, x);
   if (e >= 0) return e;
   if (std::ranges::min(barycentric(grid.mesh, element, x)) > -allowed_above) return element;
@@ -129,7 +129,7 @@ std::vector<Vector<Dim>> unit_weights(const SolidPoints<Dim>& points,
 }
 
 template <int Dim>
-int soil_beside(const Grid<Dim>& grid, const PointsByElement& sorted, int face) {
+int soil_at(const Grid<Dim>& grid, const PointsByElement& sorted, int face) {
   const bool left = grid.is_outer(face) || !sorted.is_empty(grid.face_left[face]);
   return left ? grid.face_left[face] : grid.face_right[face];
 }
@@ -156,7 +156,7 @@ LoadedSurface<Dim>::LoadedSurface(const Grid<Dim>& grid, const PointsByElement& 
     : start_(faces) {
   std::map<int, int> corner_of_node;
   for (const int f : faces) {
-    const int e = soil_beside(grid, sorted, f);
+    const int e = soil_at(grid, sorted, f);
     std::array<int, Dim> corners;
     for (int k = 0; k < Dim; ++k) {
       const int node = grid.face_nodes[f][k];
@@ -184,7 +184,7 @@ void LoadedSurface<Dim>::follow_corners(const Grid<Dim>& grid) {
       Vector<Dim> x = Vector<Dim>::Zero();
       for (int k = 0; k < Dim; ++k) x += share[k] * corner_[corners[k]];
       int& e = element_[position_.size()];
-      e = element_beside(grid, e, x);
+      e = element_next_to(grid, e, x);
       position_.push_back(x);
       normal_.push_back(vector_area<Dim>(corner_, corners) / Dim);
     }
@@ -242,11 +242,11 @@ template std::vector<Vector<2>> unit_weights(const SolidPoints<2>&, const std::v
                                              const SoilMass&, const std::array<double, 3>&);
 template std::vector<Vector<3>> unit_weights(const SolidPoints<3>&, const std::vector<double>&,
                                              const SoilMass&, const std::array<double, 3>&);
-template int soil_beside(const Grid<2>&, const PointsByElement&, int);
+template int soil_at(const Grid<2>&, const PointsByElement&, int);
 template std::vector<char> nodes_of_soil(const Grid<2>&, const PointsByElement&);
 template void add_weight(const Grid<3>&, const SolidPoints<3>&, const std::vector<double>&,
                          const SoilMass&, const std::array<double, 3>&, NodalLoads<3>&);
-template int soil_beside(const Grid<3>&, const PointsByElement&, int);
+template int soil_at(const Grid<3>&, const PointsByElement&, int);
 template std::vector<char> nodes_of_soil(const Grid<3>&, const PointsByElement&);
 template class LoadedSurface<2>;
 template class LoadedSurface<3>;

@@ -45,7 +45,7 @@ std::vector<Vector<Dim>> unit_weights(const SolidPoints<Dim>& points,
 
 /// The element with soil at a face; at the border of the mesh the only one.
 template <int Dim>
-int soil_beside(const Grid<Dim>& grid, const PointsByElement& sorted, int face);
+int soil_at(const Grid<Dim>& grid, const PointsByElement& sorted, int face);
 
 /// Per node: whether it belongs to an element with soil.
 template <int Dim>

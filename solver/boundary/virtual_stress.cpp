@@ -33,7 +33,7 @@ VirtualStress<Dim>::VirtualStress(const Grid<Dim>& grid, const PointsByElement& 
   std::vector<int> visited(grid.mesh.element_count(), -1);
   for (int k = 0; k < static_cast<int>(faces_.size()); ++k) {
     const int f = faces_[k];
-    const bool is_left = soil_beside(grid, sorted, f) == grid.face_left[f];
+    const bool is_left = soil_at(grid, sorted, f) == grid.face_left[f];
     normal_.push_back(is_left ? grid.face_normal[f] : -grid.face_normal[f]);
     cover(grid, sorted, k, is_covered, visited);
   }
@@ -45,7 +45,7 @@ void VirtualStress<Dim>::cover(const Grid<Dim>& grid, const PointsByElement& sor
   // Elements around the prism behind the face are passed through, as the centroid of an element
   // may lie beside the prism and that of the next one in it.
   constexpr double around = -1.0;
-  std::vector<int> found{soil_beside(grid, sorted, faces_[face])};
+  std::vector<int> found{soil_at(grid, sorted, faces_[face])};
   visited[found.front()] = face;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const int e = found[i];

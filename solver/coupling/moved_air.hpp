@@ -1,6 +1,6 @@
 #pragma once
 
-/// Motion of water and air in the pores of moving soil (docs/theory/moving-soil.md, "Air beside
+/// Motion of water and air in the pores of moving soil (docs/theory/moving-soil.md, "Air and
 /// soil that moves").
 
 #include <vector>

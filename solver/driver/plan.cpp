@@ -158,8 +158,8 @@ void refuse_contradictory_fluxes(const Case<Dim>& c, const Grid<Dim>& grid,
 /// Refuses Ergun's drag where faces open, close or fall dry: the iteration of the implicit flow
 /// needs linear drag there.
 template <int Dim>
-void refuse_ergun_beside_switching_faces(const Case<Dim>& c,
-                                         const std::vector<FaceCondition>& conditions) {
+void refuse_ergun_with_switching_faces(const Case<Dim>& c,
+                                       const std::vector<FaceCondition>& conditions) {
   const Scene& scene = c.document.scene;
   const auto ergun = std::ranges::find(scene.soils, SoilDrag::ergun, &Soil::drag);
   const auto face = std::ranges::find(conditions, true, &FaceCondition::switches);
@@ -442,7 +442,7 @@ Plan make_plan(const Case<Dim>& c, const SolverOptions& options) {
   if (scene.time.scheme == FlowScheme::explicit_nodal) {
     if constexpr (Dim == 2) plan_explicit_step(c, grid, soils, conditions, plan);
   } else {
-    refuse_ergun_beside_switching_faces(c, conditions);
+    refuse_ergun_with_switching_faces(c, conditions);
     plan_implicit_step(scene, plan);
     if (!plan.flow.inertia) plan.row_limits.obtuse_elements = obtuse_elements(grid);
     warn_of_free_water_with_inertia(c, plan);
