@@ -38,21 +38,6 @@ double distance_to_face(const Vector<3>& x, const Corners<3>& face) {
   return inside ? std::abs(height) : nearest;
 }
 
-/// Whether supports keep a face from moving along its normal.
-template <int Dim>
-bool is_held(const Grid<Dim>& grid, const Supports<Dim>& supports, int face) {
-  // Supports of curved faces have averaged normals at their nodes.
-  constexpr double along = 0.5;
-  const Vector<Dim> normal = grid.face_normal[face].normalized();
-  return std::ranges::all_of(grid.face_nodes[face], [&](int node) {
-    double free = 0.0;
-    for (int k = 0; k < supports.free_count(node); ++k) {
-      free = std::hypot(free, supports.directions(node).col(k).dot(normal));
-    }
-    return free < along;
-  });
-}
-
 template <int Dim>
 std::vector<Corners<Dim>> surface(const Grid<Dim>& grid, const Supports<Dim>& supports,
                                   const PointsByElement& sorted) {
@@ -60,8 +45,9 @@ std::vector<Corners<Dim>> surface(const Grid<Dim>& grid, const Supports<Dim>& su
   for (int f = 0; f < grid.face_count(); ++f) {
     const int left = grid.face_left[f];
     const int right = grid.face_right[f];
-    if (right >= 0 ? sorted.is_empty(left) == sorted.is_empty(right)
-                   : sorted.is_empty(left) || !grid.is_border(f) || is_held(grid, supports, f)) {
+    if (right >= 0
+            ? sorted.is_empty(left) == sorted.is_empty(right)
+            : sorted.is_empty(left) || !grid.is_border(f) || supports.holds_normal(grid, f)) {
       continue;
     }
     Corners<Dim> corners;

@@ -9,16 +9,6 @@ namespace {
 /// Least barycentric coordinate of a point that was moved into an element.
 constexpr double depth = 0.05;
 
-/// Whether soil can move through an outer face.
-template <int Dim>
-bool is_free(const Grid<Dim>& grid, const Supports<Dim>& supports, int face) {
-  const Vector<Dim> normal = grid.face_normal[face].normalized();
-  return std::ranges::any_of(grid.face_nodes[face], [&](int node) {
-    const auto free = supports.directions(node).leftCols(supports.free_count(node));
-    return (free.transpose() * normal).norm() > 0.5;
-  });
-}
-
 /// Elements without points that others connect with a free outer face.
 template <int Dim>
 std::vector<char> outside_of_soil(const Grid<Dim>& grid, const Supports<Dim>& supports,
@@ -31,7 +21,7 @@ std::vector<char> outside_of_soil(const Grid<Dim>& grid, const Supports<Dim>& su
     found.push_back(e);
   };
   for (int f = 0; f < grid.face_count(); ++f) {
-    if (grid.is_outer(f) && is_free(grid, supports, f)) add(grid.face_left[f]);
+    if (grid.is_outer(f) && !supports.holds_normal(grid, f)) add(grid.face_left[f]);
   }
   while (!found.empty()) {
     const int e = found.back();

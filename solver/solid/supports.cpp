@@ -105,6 +105,15 @@ void Supports<Dim>::hold_element(const Mesh<Dim>& mesh, int element) {
 }
 
 template <int Dim>
+bool Supports<Dim>::holds_normal(const Grid<Dim>& grid, int face) const {
+  const Vector<Dim> normal = grid.face_normal[face].normalized();
+  return std::ranges::all_of(grid.face_nodes[face], [&](int node) {
+    // Supports of curved faces have averaged normals at their nodes.
+    return (directions_[node].leftCols(free_count_[node]).transpose() * normal).norm() <= 0.5;
+  });
+}
+
+template <int Dim>
 DisplacementUnknowns<Dim>::DisplacementUnknowns(const Supports<Dim>& supports,
                                                 const std::vector<char>& used)
     : supports_(supports), first_(used.size(), -1), count_of_(used.size(), 0) {

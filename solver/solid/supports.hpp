@@ -50,6 +50,8 @@ class Supports {
   [[nodiscard]] const Eigen::Matrix<double, Dim, Dim>& directions(int node) const {
     return directions_[node];
   }
+  /// Whether the soil cannot move through a face.
+  [[nodiscard]] bool holds_normal(const Grid<Dim>& grid, int face) const;
 
  private:
   void hold_along(int number, const std::vector<Vector<Dim>>& normals);
