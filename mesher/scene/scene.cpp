@@ -61,6 +61,15 @@ const Soil* Scene::find_soil(const std::string& region) const {
   return found == soils.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> Scene::names_of_slits() const {
+  std::vector<std::string> names;
+  for (const Wall& wall : walls) names.push_back(wall.on);
+  for (const BoundaryCondition& boundary : boundaries) {
+    if (boundary.is_well()) names.push_back(boundary.on);
+  }
+  return names;
+}
+
 std::string file_beside_scene(const std::string& scene, const std::string& name) {
   return (std::filesystem::path(scene).parent_path() / name).string();
 }

@@ -306,6 +306,8 @@ struct Scene {
   /// Whether some soil has a skeleton that moves.
   [[nodiscard]] bool moves() const;
   [[nodiscard]] const Soil* find_soil(const std::string& region) const;
+  /// Names of the walls and wells inside the mesh. They do not move; soil slides along them.
+  [[nodiscard]] std::vector<std::string> names_of_slits() const;
   /// Free water (n_L = 1, no solid): a region without a soil that the scene makes free or that is
   /// called inflow, outflow, free_above or free_below, in a double-point scene or one whose soil
   /// moves.

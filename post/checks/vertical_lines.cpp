@@ -34,16 +34,6 @@ std::map<std::array<int, Dim>, const BoundaryCondition*> condition_of_face(const
   return conditions;
 }
 
-/// Names of the walls and wells inside the mesh.
-std::vector<std::string> slits(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Wall& wall : scene.walls) names.push_back(wall.on);
-  for (const BoundaryCondition& condition : scene.boundaries) {
-    if (condition.is_well()) names.push_back(condition.on);
-  }
-  return names;
-}
-
 bool bears_water(const BoundaryCondition& condition) {
   return condition.head.has_value() || condition.pressure.has_value();
 }
@@ -84,7 +74,7 @@ void VerticalLines<Dim>::find_neighbours() {
       if (!is_new) join(owner->second, {e, a});
     }
   }
-  for (const std::string& name : slits(scene_)) {
+  for (const std::string& name : scene_.names_of_slits()) {
     const auto set = std::ranges::find(mesh_.boundaries, name, &BoundarySet<Dim>::name);
     if (set == mesh_.boundaries.end()) continue;
     for (std::size_t i = 0; i + 1 < set->faces.size(); i += 2) {

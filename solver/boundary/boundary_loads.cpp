@@ -20,16 +20,6 @@ std::vector<int> faces_of(const Grid<Dim>& grid, const std::string& boundary) {
   return faces;
 }
 
-/// Names of walls and wells. They do not move; soil slides along them.
-std::vector<std::string> walls_and_wells(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Wall& wall : scene.walls) names.push_back(wall.on);
-  for (const BoundaryCondition& boundary : scene.boundaries) {
-    if (boundary.is_well()) names.push_back(boundary.on);
-  }
-  return names;
-}
-
 /// Pressure of the outer water at a place, Pa; 0 above its level.
 template <int Dim>
 double outside_pressure(const Scene& scene, double head, const Vector<Dim>& x) {
@@ -47,7 +37,7 @@ Supports<Dim> scene_supports(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
     const Support how = boundary.fix == Fixing::both ? Support::both : Support::normal;
     for (const int f : faces_of(grid, boundary.on)) on_face[f] = how;
   }
-  for (const std::string& inside : walls_and_wells(soils.scene())) {
+  for (const std::string& inside : soils.scene().names_of_slits()) {
     for (const int f : faces_of(grid, inside)) on_face[f] = Support::normal;
   }
   Supports<Dim> supports(grid, on_face);
