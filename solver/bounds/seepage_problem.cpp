@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bounds/conforming_head.hpp"
+#include "grid/face_flux.hpp"
 #include "grid/field_values.hpp"
 #include "physics/head.hpp"
 
@@ -322,9 +323,7 @@ template <int Dim>
 std::vector<double> SeepageProblem<Dim>::outflows() const {
   std::vector<double> result(grid_.volume.size(), 0.0);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    for (int k = 0; k <= Dim; ++k) {
-      result[e] += grid_.element_face_sign[e][k] * state_.face_flux[grid_.element_face[e][k]];
-    }
+    result[e] = outflow(grid_, e, state_.face_flux);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coupling/moved_air.hpp"
+#include "grid/face_flux.hpp"
 #include "grid/parallel.hpp"
 #include "linear/anderson_mixing.hpp"
 #include "mixed/mixed_flow.hpp"
@@ -344,10 +345,7 @@ std::optional<Eigen::VectorXd> FlowAndMotion<Dim>::undrained_rise(
   const SolidMotion& motion = solid_.solve(step, pressure, stiffness);
   if (!motion.converged) return std::nullopt;
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    double growth = 0.0;
-    for (int k = 0; k <= Dim; ++k) {
-      growth += grid_.element_face_sign[e][k] * motion.face_volume[grid_.element_face[e][k]];
-    }
+    const double growth = outflow(grid_, e, motion.face_volume);
     rise[e] -= stiffness[e] * growth / grid_.volume[e];
   }
   return rise;

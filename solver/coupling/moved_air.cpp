@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/face_flux.hpp"
+
 namespace suffuse {
 namespace {
 
@@ -74,11 +76,7 @@ double MovedAir<Dim>::taken_in(int face, double volume,
 
 template <int Dim>
 double MovedAir<Dim>::pores_gained(int e) const {
-  double sum = 0.0;
-  for (int k = 0; k <= Dim; ++k) {
-    sum += grid_.element_face_sign[e][k] * solid_[grid_.element_face[e][k]];
-  }
-  return sum;
+  return outflow(grid_, e, solid_);
 }
 
 template <int Dim>

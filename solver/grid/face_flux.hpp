@@ -1,7 +1,7 @@
 #pragma once
 
-/// The flux at a place in an element from the fluxes through its faces: the Raviart-Thomas field of
-/// lowest order.
+/// What fluxes through the faces of an element say of it: its net outflow, and the flux at a place
+/// in it, the Raviart-Thomas field of lowest order.
 
 #include <vector>
 
@@ -20,6 +20,16 @@ Vector<Dim> flux_at(const Grid<Dim>& grid, const std::vector<double>& face_flux,
               (place - grid.mesh.nodes[grid.mesh.elements[element][k]]);
   }
   return result / (Dim * grid.volume[element]);
+}
+
+/// Net outflow of an element, from values at faces along their normals, in the unit of the values.
+template <int Dim>
+double outflow(const Grid<Dim>& grid, int element, const std::vector<double>& face_values) {
+  double sum = 0.0;
+  for (int k = 0; k <= Dim; ++k) {
+    sum += grid.element_face_sign[element][k] * face_values[grid.element_face[element][k]];
+  }
+  return sum;
 }
 
 /// Flux at the centroid of each element, in the unit of `face_flux` per area.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "grid/face_flux.hpp"
+
 namespace suffuse {
 
 template <int Dim>
@@ -227,11 +229,7 @@ void FluxCorrection<Dim>::correct(std::vector<double>& face_flux,
                                   const std::vector<double>& net_outflow) const {
   std::vector<double> excess(grid_.mesh.elements.size());
   for (const int e : grid_.own_elements()) {
-    double outflow = 0.0;
-    for (int k = 0; k <= Dim; ++k) {
-      outflow += grid_.element_face_sign[e][k] * face_flux[grid_.element_face[e][k]];
-    }
-    excess[e] = outflow - net_outflow[e];
+    excess[e] = outflow(grid_, e, face_flux) - net_outflow[e];
   }
   if (grid_.ranks().count() > 1) correct_between_ranks(face_flux, excess);
   const OwnRows& own = grid_.element_rows();

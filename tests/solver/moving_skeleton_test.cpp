@@ -13,6 +13,7 @@
 #include <random>
 
 #include "box_mesh.hpp"
+#include "grid/face_flux.hpp"
 #include "motion/element_gains.hpp"
 #include "reference_table.hpp"
 #include "solid/hole_filling.hpp"
@@ -102,16 +103,6 @@ struct Body {
 
 double total(const std::vector<double>& values) {
   return std::reduce(values.begin(), values.end(), 0.0);
-}
-
-/// Net outflow of an element, from volumes through faces.
-template <int Dim>
-double outflow(const Grid<Dim>& grid, const std::vector<double>& face_volume, int e) {
-  double sum = 0.0;
-  for (int k = 0; k <= Dim; ++k) {
-    sum += grid.element_face_sign[e][k] * face_volume[grid.element_face[e][k]];
-  }
-  return sum;
 }
 
 /// Stretch s with ln s = -q s; q: load over modulus.
@@ -248,7 +239,7 @@ void check_swept_volumes(const Mesh<Dim>& mesh) {
       for (int a = 0; a <= Dim; ++a) {
         f += u[mesh.elements[e][a]] * grid.shape_gradient[e][a].transpose();
       }
-      EXPECT_NEAR(outflow(grid, swept, e), grid.volume[e] * (f.determinant() - 1.0), 1e-15);
+      EXPECT_NEAR(outflow(grid, e, swept), grid.volume[e] * (f.determinant() - 1.0), 1e-15);
     }
   }
 }
@@ -383,7 +374,7 @@ TEST(SolidFlux, ClosesToRoundOffWhileASoftColumnSinksThroughElements) {
     const SolidMotion motion = b.commit();
     EXPECT_NEAR(total(motion.solid_gain), 0.0, 1e-16);
     for (int e = 0; e < b.input.mesh.element_count(); ++e) {
-      EXPECT_NEAR(outflow(b.grid, motion.solid_face_volume, e), -motion.solid_gain[e], 1e-17);
+      EXPECT_NEAR(outflow(b.grid, e, motion.solid_face_volume), -motion.solid_gain[e], 1e-17);
       EXPECT_NEAR(b.solid.element_solid_volume()[e], before[e] + motion.solid_gain[e], 1e-17);
       EXPECT_GE(b.solid.element_solid_volume()[e], -1e-15);
     }
