@@ -84,7 +84,7 @@ Balance balance(const Table& table, const std::string& place, const std::string&
   return b;
 }
 
-std::string short_number(double value, const char* format) {
+std::string in_column(double value, const char* format) {
   char buffer[48];
   std::snprintf(buffer, sizeof buffer, format, value);
   return buffer;
@@ -96,9 +96,9 @@ std::string liquid_point_text(const Table& ledger) {
   const auto largest = std::ranges::max_element(pending);
   const auto& t = ledger.column("t");
   const auto last = [&](const char* name) { return number_text(ledger.column(name).back()); };
-  return "pending grains: " + short_number(pending.back(), "%.6g") + " kg, at most " +
-         short_number(*largest, "%.6g") + " kg at t = " +
-         short_number(t[static_cast<std::size_t>(largest - pending.begin())], "%.6g") +
+  return "pending grains: " + in_column(pending.back(), "%.6g") + " kg, at most " +
+         in_column(*largest, "%.6g") +
+         " kg at t = " + in_column(t[static_cast<std::size_t>(largest - pending.begin())], "%.6g") +
          " s\nliquid points: " + last("points") + "; entered " + last("points_in") + ", left " +
          last("points_out") + "\n";
 }
@@ -140,17 +140,17 @@ std::string balance_text(const ResultsReader& results, const std::vector<Balance
   for (const auto& b : balances) {
     text += padded(b.place, place) + padded(b.constituent, -8);
     for (const double mass : {b.initial, b.in, b.out, b.stored}) {
-      text += padded(short_number(mass, "%.8g"), 15);
+      text += padded(in_column(mass, "%.8g"), 15);
     }
     for (const double mass : {b.eroded, b.deposited}) {
-      text += padded(b.constituent == "water" ? "-" : short_number(mass, "%.8g"), 15);
+      text += padded(b.constituent == "water" ? "-" : in_column(mass, "%.8g"), 15);
     }
-    text += padded(short_number(b.worst_residual, "%.2e"), 15);
-    text += padded(short_number(b.worst_time / unit.seconds, "%.6g"), 15) + "\n";
+    text += padded(in_column(b.worst_residual, "%.2e"), 15);
+    text += padded(in_column(b.worst_time / unit.seconds, "%.6g"), 15) + "\n";
   }
   for (const auto& b : balances) {
     if (b.carried == 0.0) continue;
-    text += b.place + ": soil that moved carried " + short_number(b.carried, "%.8g") + " kg in\n";
+    text += b.place + ": soil that moved carried " + in_column(b.carried, "%.8g") + " kg in\n";
   }
   if (results.scene().scene.formulation == Formulation::double_point) {
     text += liquid_point_text(ledger);
@@ -165,18 +165,18 @@ void check_stored_water(const ResultsReader& results) {
   const auto bad = std::ranges::find_if_not(misfit, [](double m) { return m <= max_eos_error; });
   if (bad == misfit.end()) return;
   const double t = history.column("t")[static_cast<std::size_t>(bad - misfit.begin())];
-  throw NumericalError(
-      "an element holds water that differs by a share of " + short_number(*bad, "%.3g") +
-      " from what its pores take at t = " + short_number(t, "%.6g") + " s; at most " +
-      short_number(max_eos_error, "%.3g") + " may be missing or too much");
+  throw NumericalError("an element holds water that differs by a share of " +
+                       in_column(*bad, "%.3g") +
+                       " from what its pores take at t = " + in_column(t, "%.6g") + " s; at most " +
+                       in_column(max_eos_error, "%.3g") + " may be missing or too much");
 }
 
 void check_balances(const std::vector<Balance>& balances, double tolerance) {
   for (const auto& b : balances) {
     if (b.worst_residual <= tolerance) continue;
     throw NumericalError(b.place + ": " + b.constituent + ": residual " +
-                         short_number(b.worst_residual, "%.3g") +
-                         " at t = " + short_number(b.worst_time, "%.6g") +
+                         in_column(b.worst_residual, "%.3g") +
+                         " at t = " + in_column(b.worst_time, "%.6g") +
                          " s is larger than the tolerance " + number_text(tolerance));
   }
 }
@@ -193,7 +193,7 @@ std::string history_text(const ResultsReader& results) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     text += padded(history.names[k], -22);
     for (const double value : {values.front(), values.back(), *low, *high}) {
-      text += padded(short_number(value, "%.8g"), 15);
+      text += padded(in_column(value, "%.8g"), 15);
     }
     text += "\n";
   }
