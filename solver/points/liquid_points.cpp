@@ -4,17 +4,10 @@
 #include <numeric>
 
 #include "physics/liquid.hpp"
+#include "solid/solid_points.hpp"
 
 namespace suffuse {
 namespace {
-
-template <class Values>
-void reorder(Values& values, const std::vector<int>& order) {
-  if (values.empty()) return;
-  Values ordered(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) ordered[i] = values[order[i]];
-  values = std::move(ordered);
-}
 
 std::vector<int> begins(const std::vector<int>& element, int element_count) {
   std::vector<int> begin(element_count + 1, 0);
@@ -27,13 +20,13 @@ std::vector<int> begins(const std::vector<int>& element, int element_count) {
 
 template <int Dim>
 void rearrange(LiquidPoints<Dim>& points, const std::vector<int>& order) {
-  reorder(points.element, order);
-  reorder(points.barycentric, order);
-  reorder(points.water_mass, order);
-  reorder(points.fines_mass, order);
-  reorder(points.id, order);
-  reorder(points.pressure, order);
-  reorder(points.velocity, order);
+  reorder(order, points.element);
+  reorder(order, points.barycentric);
+  reorder(order, points.water_mass);
+  reorder(order, points.fines_mass);
+  reorder(order, points.id);
+  reorder(order, points.pressure);
+  reorder(order, points.velocity);
 }
 
 template <int Dim>
