@@ -206,13 +206,6 @@ void LoadedSurface<Dim>::add_traction(const Grid<Dim>& grid, const PointsByEleme
 }
 
 template <int Dim>
-void LoadedSurface<Dim>::add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted,
-                                      double pressure, NodalLoads<Dim>& loads) const {
-  add_pressures(
-      grid, sorted, [&](const Vector<Dim>&) { return pressure; }, loads);
-}
-
-template <int Dim>
 void LoadedSurface<Dim>::move(const Grid<Dim>& grid, const PointsByElement& sorted,
                               const NodeVectors<Dim>& displacement) {
   // A corner at the edge of the soil may lie outside: it moves with the soil of the next place of

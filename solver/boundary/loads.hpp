@@ -69,11 +69,8 @@ class LoadedSurface {
   /// its linear functions extrapolated to the place: forces and moments do not change.
   void add_traction(const Grid<Dim>& grid, const PointsByElement& sorted,
                     const Vector<Dim>& traction, NodalLoads<Dim>& loads) const;
-  /// Adds a pressure, Pa, normal to the present surface.
-  void add_pressure(const Grid<Dim>& grid, const PointsByElement& sorted, double pressure,
-                    NodalLoads<Dim>& loads) const;
 
-  /// Adds a pressure `pressure(x)`, Pa, which varies in space, on the present surface.
+  /// Adds a pressure `pressure(x)`, Pa, which may vary in space, normal to the present surface.
   template <class Pressure>
   void add_pressures(const Grid<Dim>& grid, const PointsByElement& sorted, const Pressure& pressure,
                      NodalLoads<Dim>& loads) const {

@@ -143,9 +143,6 @@ class Equilibrium final : public ForceBalance<Dim> {
   [[nodiscard]] double soil_volume(int element) const { return soil_volume_[element]; }
   [[nodiscard]] const std::vector<double>& soil_volumes() const { return soil_volume_; }
 
-  /// J = det F of an element.
-  [[nodiscard]] double volume_ratio(int element) const { return ratio_[element]; }
-
   /// Least det F after a step.
   static constexpr double min_ratio = 0.1;
 

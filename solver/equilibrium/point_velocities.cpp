@@ -104,13 +104,6 @@ double PointVelocities<Dim>::kinetic_energy(const std::vector<double>& mass) con
   return sum;
 }
 
-template <int Dim>
-Vector<Dim> PointVelocities<Dim>::momentum(const std::vector<double>& mass) const {
-  Vector<Dim> sum = Vector<Dim>::Zero();
-  for (std::size_t p = 0; p < mass.size(); ++p) sum += mass[p] * velocity_[p];
-  return sum;
-}
-
 template class PointVelocities<2>;
 template class PointVelocities<3>;
 

@@ -52,7 +52,6 @@ class PointVelocities {
 
   /// 1/2 sum m v^2, J (per meter of thickness in 2D).
   [[nodiscard]] double kinetic_energy(const std::vector<double>& mass) const;
-  [[nodiscard]] Vector<Dim> momentum(const std::vector<double>& mass) const;
 
   void archive(auto& archive) { archive(velocity_, gradient_, of_nodes_, in_use_); }
 

@@ -117,7 +117,6 @@ class MovingSkeleton final : public ErodingSkeleton<Dim> {
   [[nodiscard]] double fines_left(int point) const;
   /// Effective stress sigma' of a point, Pa; tension is positive.
   [[nodiscard]] Eigen::Matrix3d effective_stress(int point) const;
-  [[nodiscard]] const std::vector<double>& element_solid_volume() const { return solid_; }  ///< m3
 
  private:
   /// Laws and parameters of the points with the fines left after this loss.

@@ -267,7 +267,8 @@ TEST(Oedometer, IsExactInThreeDimensions) {
   }
   m.surface = LoadedSurface<3>(m.grid, m.sorted, m.faces_of("top"));
   NodalLoads<3> loads(m.grid);
-  m.surface.add_pressure(m.grid, m.sorted, 5e5, loads);
+  m.surface.add_pressures(
+      m.grid, m.sorted, [](const Vector<3>&) { return 5e5; }, loads);
   ASSERT_TRUE(m.step(loads.forces()).converged);
   for (int p = 0; p < m.points.size(); ++p) {
     EXPECT_NEAR(m.points.volume[p] / m.points.reference_volume[p], oedometer_stretch(), 1e-8);
