@@ -314,7 +314,11 @@ TEST(Checks, BackwardErosionNeedsALengthThatTheDrawingLacks) {
   const CheckReport without = check_run(results, results.scene().scene.check);
   ASSERT_EQ(without.refused.size(), 1U);
   EXPECT_NE(without.refused[0].find("check.backward_erosion.length"), std::string::npos);
-  EXPECT_FALSE(without.rows.empty());
+  // The other checks are made. H / F by Kenney and Lau is least at F = 20 %.
+  const double finer = 0.1 * std::pow(3.0, 5.0 / 35.0);
+  const double coarser = 50.0 + 35.0 * std::log(4.0 * finer / 0.3) / std::log(1.0 / 0.3);
+  EXPECT_NEAR(*row_of(without, "internal-stability", "sand").factor, coarser / 20.0 - 1.0, 1e-9);
+  EXPECT_EQ(std::ranges::count(without.rows, "backward-erosion", &CheckRow::mechanism), 0);
   EXPECT_THROW(require_all_checks(without), InputError);
   const CheckReport report =
       check_run(results, check_settings(results, {"check.backward_erosion.length=40.0",
