@@ -23,6 +23,9 @@ std::vector<DryMass> dry_masses(const ResultsReader& results) {
   const std::vector<double>& region = table.column("region");
   const std::vector<double>& solid = table.column("solid");
   const std::vector<double>& time = table.column("t");
+  // Results of earlier versions have no such column: their soil stayed in its region.
+  const std::vector<double> carried =
+      table.has("carried") ? table.column("carried") : std::vector<double>(table.rows());
   std::vector<DryMass> masses;
   for (std::size_t r = 0; r < results.regions().size(); ++r) {
     const Soil* soil = results.scene().scene.find_soil(results.regions()[r]);
@@ -31,7 +34,7 @@ std::vector<DryMass> dry_masses(const ResultsReader& results) {
     bool is_first = true;
     for (std::size_t row = 0; row < table.rows(); ++row) {
       if (region[row] != static_cast<double>(r)) continue;
-      mass.last = solid[row];
+      mass.last = solid[row] - carried[row];
       mass.time = time[row];
       if (is_first) mass.start = mass.last;
       is_first = false;

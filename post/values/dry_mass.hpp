@@ -17,7 +17,7 @@ struct DryMass {
   /// moves.
   double initial = 0.0;
   double start = 0.0;  ///< of this run
-  double last = 0.0;   ///< at `time`
+  double last = 0.0;   ///< at `time`, as if soil had carried none into or out of the region
   double time = 0.0;   ///< s
 };
 

@@ -79,5 +79,51 @@ TEST(Losses, OfALaterStageCountFromTheFirst) {
             std::string::npos);
 }
 
+/// A results folder: 90 kg of the soil slide into free water, and 1.5 kg of its fines erode.
+void write_slide(const std::string& folder) {
+  const Case<2> c = testing::open_above_case(1.0);
+  ResultsWriter<2> writer(folder, c);
+  LedgerRow soil;
+  LedgerRow water;
+  soil.solid = 1000.0;
+  for (const double t : {0.0, 10.0}) {
+    soil.t = water.t = t;
+    if (t > 0.0) {
+      soil.carried = -90.0;
+      soil.eroded = soil.fines_out = 1.5;
+      soil.solid = 1000.0 - 90.0 - 1.5;
+      water.carried = water.solid = 90.0;
+    }
+    writer.append_ledger(soil);
+    writer.append_regions(std::array<RegionRow, 2>{{{0, 0.3, soil}, {1, 1.0, water}}});
+  }
+  RunInfo info;
+  info.status = "done";
+  writer.write_run_info(info);
+}
+
+TEST(Losses, AreNotWhatSlidesIntoAnotherRegion) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch / "slide.results";
+  write_slide(folder);
+  const std::vector<CheckRow> rows = loss_checks(ResultsReader(folder));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_NEAR(rows[0].effect, 0.15, 1e-12);
+  EXPECT_TRUE(rows[0].note.starts_with("no erosion: ")) << rows[0].note;
+}
+
+/// `carried` is the last column, which earlier versions did not write.
+TEST(Losses, OfEarlierVersionsCountAllThatIsMissing) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch / "slide.results";
+  write_slide(folder);
+  std::istringstream table(testing::file_text(folder + "/regions.csv"));
+  std::ofstream out(folder + "/regions.csv");
+  for (std::string line; std::getline(table, line);) out << line.substr(0, line.rfind(',')) << '\n';
+  out.close();
+  ASSERT_FALSE(ResultsReader(folder).region_ledgers().has("carried"));
+  EXPECT_NEAR(loss_checks(ResultsReader(folder)).at(0).effect, 9.15, 1e-12);
+}
+
 }  // namespace losses_test
 }  // namespace suffuse
