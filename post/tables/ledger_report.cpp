@@ -72,9 +72,8 @@ Balance balance(const Table& table, const std::string& place, const std::string&
     const double rounding =
         std::numeric_limits<double>::epsilon() * (stored[row] + in[row] + out[row]);
     const double significant = formed <= rounding ? 0.0 : formed;
-    const double all = b.initial + in[row];
-    const double scale = all > 0.0 ? all : 1.0;
-    for (const double residual : {std::abs(reported[row]), significant / scale}) {
+    const double share = relative_residual(significant, b.initial, in[row], carried[row]);
+    for (const double residual : {std::abs(reported[row]), share}) {
       if (residual <= b.worst_residual) continue;
       b.worst_residual = residual;
       b.worst_time = table.column("t")[row];

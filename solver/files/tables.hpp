@@ -4,6 +4,7 @@
 /// scene has any. Each row type lists its columns once, for writer, reader and the post stage.
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -139,7 +140,8 @@ inline std::string renamed_column(std::string_view name) {
 }
 
 /// One row of ledger.csv: masses in kg (per metre of thickness in 2D); those that cross a boundary
-/// are cumulative. Residual = (stored + out - in - carried - initial) / initial, per constituent.
+/// are cumulative. Residual = (stored + out - in - carried - initial) / (initial + in + |carried|),
+/// per constituent.
 struct LedgerRow {
   double t = 0.0;
   double solid = 0.0;     ///< solid in place, skeleton and erodible
@@ -151,9 +153,8 @@ struct LedgerRow {
   double fines_in = 0.0;
   double water_out = 0.0;
   double fines_out = 0.0;
-  double residual_water = 0.0;  ///< relative to the initial and the entered water
-  /// Relative to the initial (solid and fluidised) and the entered grains.
-  double residual_grains = 0.0;
+  double residual_water = 0.0;   ///< see `relative_residual`
+  double residual_grains = 0.0;  ///< of solid and fluidised grains together
   /// Double-point: eroded fines kept at nodes until a liquid point comes near.
   double pending = 0.0;
   double points = 0.0;  ///< liquid points, and how many entered and left since the start
@@ -162,6 +163,13 @@ struct LedgerRow {
   double deposited = 0.0;  ///< fines deposited since the start
   double carried = 0.0;    ///< net solid that moving points carried in since the start
 };
+
+/// A residual over the mass that was there at the start, has entered, or came or left with soil
+/// that moved; in kg if all of these are 0.
+inline double relative_residual(double residual, double initial, double entered, double carried) {
+  const double scale = initial + entered + std::abs(carried);
+  return scale > 0.0 ? residual / scale : residual;
+}
 
 inline constexpr std::array<Column<LedgerRow>, 18> ledger_columns{{
     {"t", &LedgerRow::t, "s"},

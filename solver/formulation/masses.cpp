@@ -10,12 +10,6 @@ void book_one(double outward, ExactSum& in, ExactSum& out) {
   if (outward < 0.0) in.add(-outward);
 }
 
-/// Residual relative to the initial and the entered mass.
-double relative(double residual, double initial, double entered) {
-  const double all = initial + entered;
-  return all > 0.0 ? residual / all : residual;
-}
-
 /// Row of the ledger, from present storage, crossings and initial storage.
 LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
                      const Stored& initial) {
@@ -36,12 +30,12 @@ LedgerRow ledger_row(double time, const Stored& stored, const Crossed& crossed,
   row.points = stored.points;
   row.points_in = crossed.points_in;
   row.points_out = crossed.points_out;
-  row.residual_water =
-      relative((stored.water - initial.water) + crossed.water_net, initial.water, crossed.water_in);
-  row.residual_grains =
-      relative((stored.solid - initial.solid) + (stored.fines - initial.fines) +
-                   (stored.pending - initial.pending) - stored.carried + crossed.fines_net,
-               initial.solid + initial.fines + initial.pending, crossed.fines_in);
+  row.residual_water = relative_residual((stored.water - initial.water) + crossed.water_net,
+                                         initial.water, crossed.water_in, 0.0);
+  row.residual_grains = relative_residual(
+      (stored.solid - initial.solid) + (stored.fines - initial.fines) +
+          (stored.pending - initial.pending) - stored.carried + crossed.fines_net,
+      initial.solid + initial.fines + initial.pending, crossed.fines_in, stored.carried);
   return row;
 }
 

@@ -128,6 +128,39 @@ TEST_F(PostCommand, LedgerRefusesAResidual) {
   EXPECT_EQ(post("ledger " + leak + " --tolerance 1e-8").code, 0);
 }
 
+/// Free water has no grains until soil slides into it: the residual is a share of that soil.
+TEST_F(PostCommand, LedgerTakesSoilThatSlidInAsMassOfTheRegion) {
+  const std::string slide = scratch / "slide.results";
+  const Case<2> c = testing::open_above_case(1.0);
+  ResultsWriter<2> writer(slide, c);
+  LedgerRow soil;
+  LedgerRow water;
+  soil.solid = 2000.0;
+  soil.water = water.water = 300.0;
+  const auto append = [&] {
+    LedgerRow model;
+    model.t = soil.t;
+    model.solid = 2000.0;
+    model.water = 600.0;
+    writer.append_ledger(model);
+    writer.append_regions(std::array<RegionRow, 2>{{{0, 0.3, soil}, {1, 1.0, water}}});
+  };
+  append();
+  soil.t = water.t = 5.0;
+  soil.solid = 1500.0;
+  soil.carried = -500.0;
+  water.carried = 500.0;
+  water.solid = 500.0 + 3e-10;
+  append();
+  EXPECT_EQ(post("ledger " + slide).code, 0);
+  water.t = soil.t = 7.0;
+  water.solid = 500.0 + 5e-9;
+  append();
+  const std::string message = post("ledger " + slide).error;
+  EXPECT_NE(message.find("free_above: grains: residual 1e-11 at t = 7 s"), std::string::npos)
+      << message;
+}
+
 TEST_F(PostCommand, LedgerFindsALossThatTheRunDidNotReport) {
   const Case<2> c = unit_square_case();
   ResultsWriter<2> writer(scratch / "leak.results", c);

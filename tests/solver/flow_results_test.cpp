@@ -6,6 +6,7 @@
 
 #include "boundary/face_conditions.hpp"
 #include "common/errors.hpp"
+#include "formulation/masses.hpp"
 #include "formulation/observations.hpp"
 #include "results/state_archive.hpp"
 #include "verification/model_run.hpp"
@@ -461,6 +462,18 @@ TEST(Snapshots, HaveHeadsUnderGravityAndSaturationsWhereTheFlowHasThem) {
   }
   ASSERT_NE(find(snapshot.cell, "saturation"), nullptr);
   EXPECT_EQ(find(snapshot.cell, "saturation")->values, flow.saturation);
+}
+
+/// Free water has no grains until soil slides into it: the residual is a share of that soil.
+TEST(MassAccounts, TakeSoilThatSlidInAsMassOfTheRegion) {
+  const Case<2> c = model::make_case(column_mesh(2, 2), conduit_scene());
+  const Grid<2> grid(c.mesh);
+  MassAccounts<2> masses(c, grid);
+  masses.open({Stored{}, Stored{}});
+  Stored now;
+  now.carried = 500.0;
+  now.solid = 500.0 * (1.0 + 1e-9);
+  EXPECT_NEAR(masses.ledger(1.0, {now, now}).residual_grains, 1e-9, 1e-15);
 }
 
 /// The highest place is free water, which cannot drain: only soil raises the warning.
