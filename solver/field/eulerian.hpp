@@ -28,6 +28,21 @@ void add_liquid(ElementValues<Dim>& liquid, double volume) {
   for (double& at_node : liquid) at_node *= growth;
 }
 
+/// n_L at the nodes of the field of an element: linear as its liquid.
+/// \param porosity  per element, whose means the nodes get; empty: liquid fills all pores
+template <int Dim>
+ElementValues<Dim> node_porosity(const Grid<Dim>& grid, const ElementField<Dim>& liquid_volume,
+                                 const std::vector<double>& porosity, int element) {
+  ElementValues<Dim> result = liquid_volume[element];
+  for (double& at_node : result) at_node /= grid.volume[element] / (Dim + 1);
+  if (porosity.empty()) return result;
+  const double mean = element_sum<Dim>(result) / (Dim + 1);
+  for (double& at_node : result) {
+    at_node = mean > 0.0 ? at_node * (porosity[element] / mean) : porosity[element];
+  }
+  return result;
+}
+
 /// Range of concentrations.
 struct ConcentrationRange {
   double low;

@@ -36,6 +36,7 @@ struct FlowState {
   /// the flow has node pressures only.
   std::vector<double> face_pressure;
   std::vector<double> saturation;  ///< S per element; empty where every soil is saturated
+  std::vector<double> porosity;    ///< n_L per element; empty as `saturation`
   /// k_r per element: conductivity over that of the saturated soil; empty as `saturation`.
   std::vector<double> relative_conductivity;
   VectorField<Dim> velocity;              ///< per node, intrinsic, m/s

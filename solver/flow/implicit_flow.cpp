@@ -427,12 +427,12 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
     const double pores = this->coefficients_.porosity[e] * this->grid().volume[e];
     result.saturation.push_back(1.0 - element_sum<Dim>(now_.state.air[e]) / pores);
   }
+  if (!result.saturation.empty()) result.porosity = this->coefficients_.porosity;
   result.relative_conductivity = scheme_.relative_conductivity(now_.state.face_pressure);
   result.eos_error = eos_error_;
   result.pressure_overshoot = scales_.overshoot(this->grid().ranks(), now_.state.face_pressure);
-  NodalFields<Dim> nodes =
-      nodal_fields(this->grid(), now_, pressure_, this->coefficients_.porosity,
-                   Vector<Dim>(this->scene().liquid.density * this->gravity()));
+  auto nodes = nodal_fields(this->grid(), now_, pressure_, this->coefficients_.porosity,
+                            Vector<Dim>(this->scene().liquid.density * this->gravity()));
   result.node_pressure = std::move(nodes.pressure);
   result.velocity = std::move(nodes.velocity);
   this->prescribe_at_nodes(result.face_pressure, result.node_pressure);

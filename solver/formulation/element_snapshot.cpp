@@ -33,7 +33,7 @@ void add_values(std::vector<Field>& fields, double n, double c, double n_f) {
 /// Means of elements, and their linear functions at the vertices.
 template <int Dim>
 void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesState<Dim>& liquid,
-               const std::vector<double>& saturation, Snapshot& result) {
+               const std::vector<double>& porosity, Snapshot& result) {
   using Nodes = FieldNodes<Dim>;
   result.cell = pore_fields(1);
   result.element_vertex = pore_fields(Dim + 1);
@@ -42,30 +42,27 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
   Field erodible = scalar("erodible_fraction", "1");
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     const ElementValues<Dim>& wet = liquid.liquid_volume[e];
-    const double filled = saturation.empty() ? 1.0 : saturation[e];
     const ElementValues<Dim>& volume = liquid.fines_volume[e];
     const double wet_sum = element_sum<Dim>(wet);
     const double fines_sum = element_sum<Dim>(volume);
     const double n_wet = wet_sum / grid.volume[e];
-    const double n = n_wet / filled;
+    const double n = porosity.empty() ? n_wet : porosity[e];
     add_values(result.cell, n, fines_sum / wet_sum, fines_sum / grid.volume[e]);
     water.values.push_back(n_wet - fines_sum / grid.volume[e]);
     erodible.values.push_back(solid.soils().soil_of_element(e).porosity_max() - n);
 
-    const double node_volume = grid.volume[e] / (Dim + 1);
-    ElementValues<Dim> n_node;
     ElementValues<Dim> f_node;
     ElementValues<Dim> c_node;
     for (int j = 0; j <= Dim; ++j) {
-      n_node[j] = wet[j] / node_volume;
-      f_node[j] = volume[j] / node_volume;
+      f_node[j] = volume[j] / (grid.volume[e] / (Dim + 1));
       c_node[j] = volume[j] / wet[j];
     }
-    const auto n_vertex = Nodes::at_vertices(n_node);
+    const auto n_vertex =
+        Nodes::at_vertices(node_porosity(grid, liquid.liquid_volume, porosity, e));
     const auto f_vertex = Nodes::at_vertices(f_node);
     const auto c_vertex = Nodes::at_vertices(c_node);
     for (int k = 0; k <= Dim; ++k) {
-      add_values(result.element_vertex, n_vertex[k] / filled, c_vertex[k], f_vertex[k]);
+      add_values(result.element_vertex, n_vertex[k], c_vertex[k], f_vertex[k]);
     }
   }
   result.cell.push_back(std::move(water));
@@ -189,7 +186,7 @@ Snapshot element_snapshot(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
   Snapshot result;
   result.time = flow.time;
   result.step = step;
-  add_pores(grid, solid, liquid, flow.saturation, result);
+  add_pores(grid, solid, liquid, flow.porosity, result);
   add_flow(grid, flow, scene, result);
   add_solid_points(grid, solid, liquid, flow, acting_concentration, result);
   solid.describe(result);

@@ -122,10 +122,8 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
     const int e = place.element;
     // Exactly the place of the scene, without round-off.
     const auto x = vector_of<Dim>(scene_.output.probes[i].at);
-    ElementValues<Dim> porosity;
     ElementValues<Dim> concentration;
     for (int j = 0; j <= Dim; ++j) {
-      porosity[j] = liquid.liquid_volume[e][j] / (grid_.volume[e] / (Dim + 1));
       concentration[j] = liquid.fines_volume[e][j] / liquid.liquid_volume[e][j];
     }
     const Vector<Dim> flux = flux_at(grid_, flow.face_flux, e, x);
@@ -137,7 +135,8 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
     row.pressure = pressure_at(grid_, flow, place, x, density_times_gravity);
     row.head = row.pressure / weight + height(x, scene_.gravity);
     row.saturation = flow.saturation.empty() ? 1.0 : flow.saturation[e];
-    row.porosity = FieldNodes<Dim>::value(porosity, place.barycentric) / row.saturation;
+    row.porosity = FieldNodes<Dim>::value(
+        node_porosity(grid_, liquid.liquid_volume, flow.porosity, e), place.barycentric);
     row.concentration = FieldNodes<Dim>::value(concentration, place.barycentric);
     row.flux_x = flux[0];
     row.flux_y = flux[1];

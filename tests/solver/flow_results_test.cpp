@@ -464,6 +464,29 @@ TEST(Snapshots, HaveHeadsUnderGravityAndSaturationsWhereTheFlowHasThem) {
   EXPECT_EQ(find(snapshot.cell, "saturation")->values, flow.saturation);
 }
 
+/// Soil that holds less liquid than the round-off of its pores, or none.
+TEST(Snapshots, HaveThePorosityOfSoilThatIsNearlyDry) {
+  Scene scene = conduit_scene();
+  model::ModelRun run(model::make_case(column_mesh(3, 3), scene));
+  FlowState<2> flow = run.model().flow_state();
+  flow.saturation.assign(18, 0.0);
+  flow.porosity.assign(18, 0.25);
+  const Snapshot snapshot = run.model().snapshot(flow);
+  EXPECT_EQ(find(snapshot.cell, "porosity")->values, flow.porosity);
+  for (const double n : find(snapshot.element_vertex, "porosity")->values) {
+    EXPECT_NEAR(n, 0.25, 1e-15);
+  }
+  // The centroid of an element.
+  scene.output.probes = {{{2.0 / 9.0, 1.0 / 9.0, 0.0}}};
+  const Case<2> c = model::make_case(column_mesh(3, 3), scene);
+  const Grid<2> grid(c.mesh);
+  const Observations<2> observations(c, grid);
+  const ElementField<2> little(18, {1e-20, 2e-20, 3e-20});
+  EXPECT_NEAR(observations.probe_rows(flow, {little, little}).at(0).porosity, 0.25, 1e-15);
+  const ElementField<2> none(18, {0.0, 0.0, 0.0});
+  EXPECT_EQ(observations.probe_rows(flow, {none, none}).at(0).porosity, 0.25);
+}
+
 /// Free water has no grains until soil slides into it: the residual is a share of that soil.
 TEST(MassAccounts, TakeSoilThatSlidInAsMassOfTheRegion) {
   const Case<2> c = model::make_case(column_mesh(2, 2), conduit_scene());
