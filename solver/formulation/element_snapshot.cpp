@@ -30,6 +30,18 @@ void add_values(std::vector<Field>& fields, double n, double c, double n_f) {
   fields[2].values.push_back(n_f);
 }
 
+/// Fines of an element that can erode, over its volume. Points carry those of soil that moves.
+template <int Dim>
+double erodible_fraction(const Grid<Dim>& grid, const Skeleton<Dim>& solid, int e, double n) {
+  const SoilMap<Dim>& soils = solid.soils();
+  const Soil& soil = soils.soil_of_element(e);
+  const bool is_rigid = !solid.moves() || (soils.is_soil(e) && !soil.skeleton.moves());
+  if (is_rigid) return soil.porosity_max() - n;
+  const auto begin = solid.state().erodible_volume.begin() + soils.points_begin(e);
+  const int count = soils.points_begin(e + 1) - soils.points_begin(e);
+  return std::accumulate(begin, begin + count, 0.0) / grid.volume[e];
+}
+
 /// Means of elements, and their linear functions at the vertices.
 template <int Dim>
 void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesState<Dim>& liquid,
@@ -49,7 +61,7 @@ void add_pores(const Grid<Dim>& grid, const Skeleton<Dim>& solid, const FinesSta
     const double n = porosity.empty() ? n_wet : porosity[e];
     add_values(result.cell, n, fines_sum / wet_sum, fines_sum / grid.volume[e]);
     water.values.push_back(n_wet - fines_sum / grid.volume[e]);
-    erodible.values.push_back(solid.soils().soil_of_element(e).porosity_max() - n);
+    erodible.values.push_back(erodible_fraction(grid, solid, e, n));
 
     ElementValues<Dim> f_node;
     ElementValues<Dim> c_node;

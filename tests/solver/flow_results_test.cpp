@@ -9,7 +9,7 @@
 #include "formulation/masses.hpp"
 #include "formulation/observations.hpp"
 #include "results/state_archive.hpp"
-#include "verification/model_run.hpp"
+#include "verification/moving_soil.hpp"
 
 namespace suffuse {
 namespace flow_results_test {
@@ -485,6 +485,54 @@ TEST(Snapshots, HaveThePorosityOfSoilThatIsNearlyDry) {
   EXPECT_NEAR(observations.probe_rows(flow, {little, little}).at(0).porosity, 0.25, 1e-15);
   const ElementField<2> none(18, {0.0, 0.0, 0.0});
   EXPECT_EQ(observations.probe_rows(flow, {none, none}).at(0).porosity, 0.25);
+}
+
+/// Soil between smooth walls on rigid soil: a load compresses it while its fines erode.
+TEST(Snapshots, OfMovingSoilHaveTheErodibleFinesOfThePoints) {
+  Scene scene = conduit_scene();
+  scene.time.end = 40.0;
+  scene.time.step = 1.0;
+  scene.initial_flow = InitialFlow::rest;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.soils[0].skeleton = model::elastic_soil(1e6, 0.0);
+  scene.soils[0].erosion.law = erosion_law("constant");
+  scene.soils[0].erosion.rate = 1e-3;
+  scene.soils.push_back(scene.soils[0]);
+  scene.soils[1].region = "base";
+  scene.soils[1].skeleton = {};
+  scene.soils[1].porosity_gradient = {0.05, 0.02, 0.0};
+  BoundaryCondition top = model::clean_pressure_on("top", 0.0);
+  top.traction = VectorFunction{{{0.0, {0.0, 0.0, 0.0}}, {40.0, {0.0, -2e5, 0.0}}}};
+  scene.boundaries = {top, model::fixed_on("bottom", Fixing::both),
+                      model::fixed_on("left", Fixing::normal),
+                      model::fixed_on("right", Fixing::normal)};
+  Mesh<2> mesh = column_mesh(2, 8);
+  mesh.region_names.emplace_back("base");
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    mesh.element_region[e] = element_centroid(mesh, e)[1] < 0.25 ? 1 : 0;
+  }
+  model::ModelRun run(model::make_case(std::move(mesh), scene));
+  const Snapshot snapshot = run.run({40.0}, true).snapshots.back();
+  const auto of_points = [&](const char* name) { return find(snapshot.solid, name)->values; };
+  const std::vector<double> fraction = of_points("erodible_fraction");
+  const std::vector<double> volume = of_points("volume");
+  const std::vector<double> element = of_points("element");
+  const Grid<2>& grid = run.model().grid();
+  std::vector<double> sum(grid.volume.size());
+  for (std::size_t p = 0; p < volume.size(); ++p) {
+    const auto e = static_cast<std::size_t>(element[p]);
+    sum[e] += fraction[p] * volume[p] / grid.volume[e];
+  }
+  const std::vector<double> cells = find(snapshot.cell, "erodible_fraction")->values;
+  const std::vector<double> porosity = find(snapshot.cell, "porosity")->values;
+  for (std::size_t e = 0; e < sum.size(); ++e) {
+    if (grid.mesh.element_region[e] == 1) {
+      EXPECT_EQ(cells[e], 0.4 - porosity[e]) << e;
+    } else {
+      EXPECT_NEAR(cells[e], sum[e], 1e-14) << e;
+    }
+  }
+  EXPECT_EQ(std::ranges::min(cells), 0.0) << "the soil has sunk from the uppermost elements";
 }
 
 /// Free water has no grains until soil slides into it: the residual is a share of that soil.
