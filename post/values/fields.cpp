@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <unordered_map>
 
 #include "common/closest_name.hpp"
 #include "common/errors.hpp"
@@ -73,6 +74,37 @@ std::string symbol_of(const std::string& name) {
   return found == symbols.end() ? "" : " " + found->second;
 }
 
+bool are_moving_points(const ResultsReader& results, const std::string& where) {
+  return where == "liquid" || (where == "solid" && results.scene().scene.moves());
+}
+
+[[noreturn]] void refuse_change(const FieldPlace& place, const std::string& why) {
+  refuse("suffuse-post", "--change", '"' + place.name + "\" on " + place.where,
+         "a field of places that stay: " + why);
+}
+
+/// Gives the values of points at the start the order of the points of the snapshot `index`, which
+/// have the same numbers. Throws InputError where a point has no number, or was not there.
+void sort_by_id(const ResultsReader& results, std::size_t index, const FieldPlace& place,
+                Field& first) {
+  for (const std::size_t i : {std::size_t{0}, index}) {
+    if (std::ranges::count(results.field_names(i, place.where), "id") > 0) continue;
+    refuse_change(place, "points move, and these have no field \"id\"");
+  }
+  const std::vector<double> first_id = results.field(0, place.where, "id").values;
+  std::unordered_map<double, std::size_t> place_of;
+  for (std::size_t i = 0; i < first_id.size(); ++i) place_of[first_id[i]] = i;
+  const std::vector<double> unsorted = std::move(first.values);
+  first.values.clear();
+  const auto width = static_cast<std::ptrdiff_t>(first.components);
+  for (const double id : results.field(index, place.where, "id").values) {
+    const auto found = place_of.find(id);
+    if (found == place_of.end()) refuse_change(place, "a point was not there at the start");
+    const auto begin = unsorted.begin() + width * static_cast<std::ptrdiff_t>(found->second);
+    first.values.insert(first.values.end(), begin, begin + width);
+  }
+}
+
 }  // namespace
 
 std::string fields_and_places(const ResultsReader& results, std::size_t index,
@@ -110,12 +142,8 @@ FieldPlace find_field(const ResultsReader& results, std::size_t index, const std
 Field read_field(const ResultsReader& results, std::size_t index, const FieldPlace& place) {
   Field field = any_field(results, index, place.where, place.name);
   if (!place.change) return field;
-  const Field first = any_field(results, 0, place.where, place.name);
-  if (first.values.size() != field.values.size()) {
-    throw InputError(std::vector{
-        InputProblem{"suffuse-post", "--change", '"' + place.name + "\" on " + place.where,
-                     "a field of places that stay: liquid points enter and leave", ""}});
-  }
+  Field first = any_field(results, 0, place.where, place.name);
+  if (are_moving_points(results, place.where)) sort_by_id(results, index, place, first);
   for (std::size_t i = 0; i < field.values.size(); ++i) field.values[i] -= first.values[i];
   return field;
 }

@@ -28,7 +28,8 @@ FieldPlace find_field(const ResultsReader& results, std::size_t index, const std
 std::string fields_and_places(const ResultsReader& results, std::size_t index,
                               const std::vector<std::string>& only = {});
 
-/// The field, its change included. Throws FileError; InputError for a change on liquid points.
+/// The field, its change included. Throws FileError; InputError for a change on points that were
+/// not there at the start, or that move and have no field `id`.
 Field read_field(const ResultsReader& results, std::size_t index, const FieldPlace& place);
 
 /// A field with one number per element, per vertex of every element, per node or per point; of a

@@ -95,6 +95,62 @@ TEST_F(DerivedFields, ChangeIsSinceTheFirstSnapshot) {
   EXPECT_EQ(field_label(place, change), "change of pressure p (Pa)");
 }
 
+/// Two snapshots of soil that moves, whose points are sorted anew by element.
+/// \param has_numbers  points have a field `id`
+void write_moving_points(const std::string& folder, bool has_numbers,
+                         const std::vector<double>& last_id) {
+  const Case<2> c = testing::open_above_case(1.0);
+  ResultsWriter<2> writer(folder, c);
+  for (const double t : {0.0, 10.0}) {
+    Snapshot s;
+    s.time = t;
+    const std::vector<double> id = t > 0.0 ? last_id : std::vector<double>{0.0, 1.0, 2.0, 3.0};
+    Field pores{"porosity", "1", 1, {}};
+    Field displacement{"displacement", "m", 2, {}};
+    for (const double number : id) {
+      pores.values.push_back(0.1 * number + 1e-3 * t);
+      displacement.values.insert(displacement.values.end(), {number, t * number});
+      s.solid_positions.insert(s.solid_positions.end(), {0.1 * number, 0.25, 0.0});
+    }
+    s.solid = {pores, displacement};
+    if (has_numbers) s.solid.push_back({"id", "1", 1, id, true});
+    writer.write_snapshot(s);
+  }
+  RunInfo info;
+  info.status = "done";
+  writer.write_run_info(info);
+}
+
+TEST(ChangeOfMovingPoints, IsThatOfTheSamePoint) {
+  const ScratchFolder scratch;
+  const std::string folder = scratch / "moving.results";
+  write_moving_points(folder, true, {2.0, 0.0, 3.0, 1.0});
+  const ResultsReader results(folder);
+  for (const double change : read_field(results, 1, {"porosity", "solid", true}).values) {
+    EXPECT_NEAR(change, 0.01, 1e-15);
+  }
+  EXPECT_EQ(read_field(results, 1, {"displacement", "solid", true}).values,
+            (std::vector<double>{0.0, 20.0, 0.0, 0.0, 0.0, 30.0, 0.0, 10.0}));
+}
+
+TEST(ChangeOfMovingPoints, IsRefusedWithoutTheirNumbersOrWithOthers) {
+  const ScratchFolder scratch;
+  write_moving_points(scratch / "old.results", false, {2.0, 0.0, 3.0, 1.0});
+  write_moving_points(scratch / "new.results", true, {2.0, 0.0, 4.0, 1.0});
+  const auto refusal = [&](const std::string& name) -> std::string {
+    try {
+      read_field(ResultsReader(scratch / name), 1, {"porosity", "solid", true});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string expected =
+      "suffuse-post: --change: got \"porosity\" on solid; expected a field of places that stay: ";
+  EXPECT_EQ(refusal("old.results"), expected + "points move, and these have no field \"id\"");
+  EXPECT_EQ(refusal("new.results"), expected + "a point was not there at the start");
+}
+
 TEST_F(DerivedFields, LeastSafetyIsThatOfAllTimes) {
   const auto parts = safety_of(results());
   ASSERT_EQ(parts.size(), 3U);
