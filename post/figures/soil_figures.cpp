@@ -69,10 +69,13 @@ std::string points_text(int count, const std::string& kind) {
 
 Chart porosity_chart(const std::vector<ResultsReader>& runs) {
   RunCurves curves(runs);
+  std::string soil_name = curves.soil_name();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Table history = runs[r].history();
     require_curve(runs[r], history, "history.csv");
-    if (has_exact_porosity(curves.soil(r))) {
+    if (!curves.soil(r).has_mean_of_history) {
+      soil_name = "the soil that exchanges fines, or of all soil";
+    } else if (has_exact_porosity(curves.soil(r))) {
       const auto times = exact_times(history.column("t").back(), curves.soil(r));
       std::vector<double> exact;
       exact.reserve(times.size());
@@ -81,7 +84,7 @@ Chart porosity_chart(const std::vector<ResultsReader>& runs) {
     }
     curves.add_run(r, history.column("t"), history.column("porosity_mean"));
   }
-  return curves.chart("Mean porosity of " + curves.soil_name(), "porosity n_L (-)");
+  return curves.chart("Mean porosity of " + soil_name, "porosity n_L (-)");
 }
 
 Chart masses_chart(const std::vector<ResultsReader>& runs) {

@@ -49,7 +49,8 @@ struct CurveColumn {
 
 const std::vector<CurveColumn>& curve_columns() {
   static const std::vector<CurveColumn> columns{
-      {"history", "porosity_mean", "Mean porosity of the soil that erodes, or of all soil"},
+      {"history", "porosity_mean",
+       "Mean porosity of the soil that exchanges fines, or of all soil"},
       {"history", drawn_as_share,
        "Fines that left the model, in % of the dry mass at the start of the soils that exchange "
        "fines"},

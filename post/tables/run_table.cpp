@@ -77,6 +77,20 @@ double exact_completion(const Specimen& soil) {
   return keeps ? std::numeric_limits<double>::infinity() : exact_exhaustion(soil);
 }
 
+/// Adds the largest distance of the mean porosity of the history from the exact one, in % of the
+/// volume that can erode.
+void add_porosity_error(Row& row, const ResultsReader& run, const Specimen& soil) {
+  const double erodible =
+      integrate(soil, 0.0, [](const Soil& s, double n, double) { return s.porosity_max() - n; });
+  const Table history = run.history();
+  double porosity = 0.0;
+  for (std::size_t i = 0; i < history.rows(); ++i) {
+    porosity = std::max(porosity, std::abs(history.column("porosity_mean")[i] -
+                                           exact_mean_porosity(soil, history.column("t")[i])));
+  }
+  row["error_porosity_percent"] = number_text(100.0 * porosity * soil.volume / erodible);
+}
+
 /// Adds the largest distances from the exact curves, in % of the mass that can erode.
 void add_errors(Row& row, const ResultsReader& run, const Specimen& soil,
                 const std::vector<Masses>& masses) {
@@ -92,15 +106,7 @@ void add_errors(Row& row, const ResultsReader& run, const Specimen& soil,
   }
   row["error_solid_percent"] = number_text(100.0 * solid / erodible);
   row["error_eroded_percent"] = number_text(100.0 * eroded / erodible);
-  const double erodible_volume =
-      integrate(soil, 0.0, [](const Soil& s, double n, double) { return s.porosity_max() - n; });
-  const Table history = run.history();
-  double porosity = 0.0;
-  for (std::size_t i = 0; i < history.rows(); ++i) {
-    porosity = std::max(porosity, std::abs(history.column("porosity_mean")[i] -
-                                           exact_mean_porosity(soil, history.column("t")[i])));
-  }
-  row["error_porosity_percent"] = number_text(100.0 * porosity * soil.volume / erodible_volume);
+  if (soil.has_mean_of_history) add_porosity_error(row, run, soil);
 }
 
 void add_fines_error(Row& row, const ResultsReader& run, const std::vector<Masses>& masses) {

@@ -45,6 +45,7 @@ void add_element(std::map<std::pair<std::string, double>, Portion>& portions, co
 template <int Dim>
 Specimen specimen_of(const Scene& scene, const Mesh<Dim>& mesh) {
   const bool any = std::any_of(scene.soils.begin(), scene.soils.end(), has_law);
+  const bool any_exchanges = std::ranges::any_of(scene.soils, &Soil::exchanges);
   Specimen found;
   found.starts_from_scene = scene.initial_from.empty();
   std::vector<const Soil*> soils;
@@ -53,7 +54,9 @@ Specimen specimen_of(const Scene& scene, const Mesh<Dim>& mesh) {
     const bool counts = soil != nullptr && (has_law(*soil) || !any);
     soils.push_back(counts ? soil : nullptr);
     if (counts) found.regions.push_back(r);
-    if (soil != nullptr && !counts) found.has_all_soil = false;
+    if (soil == nullptr) continue;
+    if (!counts) found.has_all_soil = false;
+    if (counts != (soil->exchanges() || !any_exchanges)) found.has_mean_of_history = false;
   }
   std::map<std::pair<std::string, double>, Portion> portions;
   for (int e = 0; e < mesh.element_count(); ++e) {

@@ -18,8 +18,7 @@ struct Portion {
   double initial_porosity = 0.0;
 };
 
-/// The regions and portions of the specimen; the column `porosity_mean` of history.csv is the mean
-/// over the same soil.
+/// The regions and portions of the specimen.
 struct Specimen {
   std::vector<int> regions;  ///< numbers as in regions.csv
   std::vector<Portion> portions;
@@ -27,6 +26,9 @@ struct Specimen {
   bool has_all_soil = true;  ///< false when some other soil does not erode
   /// Whether the porosity at the start is the scene's, and not that of an earlier run.
   bool starts_from_scene = true;
+  /// Whether `porosity_mean` of history.csv is the mean over the specimen alone; false where other
+  /// soil deposits fines.
+  bool has_mean_of_history = true;
 };
 
 /// The specimen of a run. Throws FileError.

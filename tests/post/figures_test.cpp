@@ -332,6 +332,31 @@ TEST(Figures, TitlesSayWhenSoilIsLeftOut) {
   EXPECT_EQ(make_figure("porosity", two_runs(scratch)).front().title, "Mean porosity of the soil");
 }
 
+/// The history has the mean porosity of the soil that exchanges fines, the base included.
+TEST(Figures, PorosityHasNoExactCurveWhereOtherSoilDeposits) {
+  const ScratchFolder scratch;
+  Case<2> c = testing::unit_square_case();
+  c.document = parse_scene(c.document.text +
+                               "[soil.base]\nlike = \"specimen\"\nerosion.law = \"none\"\n"
+                               "deposition = {coefficient = 1e-6}\n",
+                           "layers.toml", {"time.scheme=implicit"});
+  c.mesh.region_names.emplace_back("base");
+  c.mesh.element_region.back() = 1;
+  {
+    ResultsWriter<2> writer(scratch / "layers.results", c);
+    testing::write_rows(writer, 2.0, [](double) { return 0.3; });
+    writer.write_run_info({});
+  }
+  const std::vector<ResultsReader> layers{ResultsReader(scratch / "layers.results")};
+  const Chart porosity = make_figure("porosity", layers).front();
+  EXPECT_EQ(porosity.title, "Mean porosity of the soil that exchanges fines, or of all soil");
+  EXPECT_EQ(porosity.curves.size(), 1U);
+  // The masses are those of the soil that erodes.
+  const Chart solid = make_figure("solid-mass", layers).front();
+  EXPECT_EQ(solid.title, "Solid mass of the soil that erodes");
+  EXPECT_EQ(solid.curves.size(), 2U);
+}
+
 TEST(Figures, TicksAreRoundAndEnclose) {
   const auto ticks = round_ticks(0.3, 0.3987);
   EXPECT_NEAR(ticks.front(), 0.3, 1e-15);

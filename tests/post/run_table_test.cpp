@@ -168,6 +168,32 @@ TEST(RunTable, HasNoExactValuesThatTheSceneDoesNotDetermine) {
   }
 }
 
+/// The mean porosity of the history is also that of the soil that deposits.
+TEST(RunTable, PorosityHasNoErrorWhereOtherSoilDeposits) {
+  const ScratchFolder scratch;
+  const auto row_with = [&](const std::string& base) {
+    Case<2> c = testing::unit_square_case();
+    c.document = parse_scene(c.document.text + "[soil.base]\nlike = \"specimen\"\n" + base,
+                             "layers.toml", {"time.scheme=implicit"});
+    c.mesh.region_names.emplace_back("base");
+    c.mesh.element_region.back() = 1;
+    std::filesystem::remove_all(scratch / "run.results");
+    {
+      ResultsWriter<2> writer(scratch / "run.results", c);
+      testing::write_rows(writer, 120.0, [](double t) { return 0.3 + 5e-4 * t; });
+    }
+    return parsed(run_table({ResultsReader(scratch / "run.results")})).front();
+  };
+  EXPECT_NE(row_with("erosion.law = \"none\"\n")["error_porosity_percent"], "");
+  auto row = row_with("erosion.law = \"none\"\ndeposition = {coefficient = 1e-6}\n");
+  EXPECT_EQ(row["error_porosity_percent"], "");
+  // The masses are those of the soil that erodes.
+  EXPECT_NE(row["error_solid_percent"], "");
+  // Soil that erodes and deposits has no exact values anyway.
+  row = row_with("deposition = {coefficient = 1e-6}\n");
+  EXPECT_EQ(row["error_solid_percent"], "");
+}
+
 // No solution uses up fines that the law leaves.
 TEST(RunTable, AResidualIsNeverUsedUp) {
   EXPECT_NEAR(std::stod(changed_row({})["complete_exact"]), 102.0, 1e-9);
