@@ -22,6 +22,18 @@ namespace {
   throw InputError(InputProblem{results.scene().locate(key), key, found, expected});
 }
 
+/// Refuses gravity that is not along y: lengths are taken along x. `more`: what else is allowed, or
+/// why.
+void expect_gravity_along_y(const ResultsReader& results, const std::string& more) {
+  constexpr double round_off = 1e-9;
+  const Scene& scene = results.scene().scene;
+  if (std::abs(upward<2>(scene)[0]) <= round_off) return;
+  refuse_setting(
+      results, "gravity",
+      "[" + short_text(scene.gravity[0]) + ", " + short_text(scene.gravity[1]) + "] m/s2",
+      "gravity along y, " + more);
+}
+
 /// Mesh and vertical lines of a plane section.
 class Section {
  public:
@@ -298,6 +310,9 @@ std::vector<CheckRow> backward_erosion_checks(const ResultsReader& results,
   layer.length = settings.length;
   layer.thickness = settings.thickness;
   if (std::isnan(layer.length) || std::isnan(layer.thickness)) {
+    expect_gravity_along_y(results,
+                           "or check.backward_erosion.length and thickness, which are "
+                           "taken along x and y otherwise");
     const PipePath path = path_in_drawing(results, section, settings);
     if (std::isnan(layer.length)) layer.length = path.length();
     if (std::isnan(layer.thickness)) {
@@ -332,6 +347,7 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   const Section section(results, table);
   const Scene& scene = results.scene().scene;
   const std::string toe_key = table + ".landside_toe";
+  expect_gravity_along_y(results, "which check.blanket takes as upright");
   expect_river_on_its_side(results, section, settings);
   const GroundPlace<2> toe = section.ground_at(settings.landside_toe, toe_key);
   const auto line = section.lines().below(toe);

@@ -146,6 +146,31 @@ TEST(Blanket, TakesConductivityAlongTheAquiferAndAcrossTheCover) {
   }
 }
 
+/// Lengths along x are not level then: the same section turned with its gravity has others.
+TEST(Blanket, GravityThatIsTiltedIsRefused) {
+  const ScratchFolder scratch;
+  std::string scene = levee_scene(
+      blanket() +
+      "check.backward_erosion = { layer = \"sand\", entry = \"river\", exit = \"land\" }\n");
+  scene.replace(scene.find("[0.0, -9.81]"), 12, "[0.981, -9.76]");
+  const ResultsReader results = run_programs(scratch, "levee", scene, levee_ground());
+  const auto refused = [&](const std::vector<std::string>& changes) {
+    return check_run(results, check_settings(results, changes)).refused;
+  };
+  const std::vector<std::string> both = refused({});
+  ASSERT_EQ(both.size(), 2U);
+  const std::string found = "gravity: got [0.981, -9.76] m/s2; expected gravity along y";
+  EXPECT_NE(both[0].find(found + ", which check.blanket takes as upright"), std::string::npos)
+      << both[0];
+  EXPECT_NE(both[1].find(found + ", or check.backward_erosion.length and thickness"),
+            std::string::npos)
+      << both[1];
+  // Nothing is measured in the drawing then.
+  EXPECT_EQ(refused({"check.backward_erosion.length=40.0", "check.backward_erosion.thickness=10.0"})
+                .size(),
+            1U);
+}
+
 /// At 45 degrees a level flux needs (1/k_1 + 1/k_2)/2 of it as its gradient, and an upright
 /// gradient drives (k_1 + k_2)/2 of it upwards.
 TEST(Blanket, ObliqueBeddingHasBothMeans) {
