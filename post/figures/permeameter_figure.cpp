@@ -30,7 +30,8 @@ Curve line_of(const std::string& label, std::size_t run) {
 Curve lost_of(const ResultsReader& run, Curve curve) {
   const Table ledger = run.ledger();
   require_curve(run, ledger, "ledger.csv");
-  const double fines = ledger.column("erodible").front();
+  // A stage may start with fines in the liquid.
+  const double fines = ledger.column("erodible").front() + ledger.column("fines").front();
   if (!(fines > 0.0)) {
     throw FileError(
         run.folder() + ": has no fines at the start that could be lost; expected " +

@@ -16,8 +16,9 @@ using testing::ScratchFolder;
 
 /// A test of two hours: fines leave at a share of 0.2 per hour and enter at 0.05 per hour. Pressure
 /// steps from 1 to 4 kPa after one hour, conductivity grows as 1 + t/h; there is no flow at first.
+/// \param fines  in the liquid, kg
 ResultsReader run_of(const ScratchFolder& scratch, const std::string& name,
-                     const std::vector<std::string>& changes = {}) {
+                     const std::vector<std::string>& changes = {}, double fines = 0.0) {
   Case<2> c = testing::unit_square_case(name);
   c.document = parse_scene(c.document.text, c.document.path, changes);
   const std::string folder = scratch / (name + ".results");
@@ -32,6 +33,7 @@ ResultsReader run_of(const ScratchFolder& scratch, const std::string& name,
       LedgerRow ledger;
       ledger.t = history.t;
       ledger.erodible = 270.0 * (1.0 - 0.15 * hours);
+      ledger.fines = fines;
       ledger.fines_out = 270.0 * 0.2 * hours;
       ledger.fines_in = 270.0 * 0.05 * hours;
       writer.append_history(history);
@@ -76,6 +78,13 @@ TEST(PermeameterFigure, FinesLostAndConductanceAreThoseOfTheTables) {
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_NEAR(conductance.y[k], (1.0 + conductance.x[k]) / 1.5, 1e-12);
   }
+}
+
+/// A stage starts with some of its fines in the liquid: what is lost is a share of all of them.
+TEST(PermeameterFigure, FinesLostAreAShareOfThoseInTheLiquidToo) {
+  const ScratchFolder scratch;
+  const Curve lost = fines_lost_charts({run_of(scratch, "a", {}, 30.0)}).front().curves.front();
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(lost.y[k], 13.5 * lost.x[k], 1e-12);
 }
 
 TEST(PermeameterFigure, MeasuredPointsLieBesideTheRunOfTheirName) {
