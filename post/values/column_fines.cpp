@@ -15,7 +15,7 @@ constexpr int intervals = 2000;
 /// One end of the column as the scene prescribes it.
 struct End {
   const BoundaryCondition* condition = nullptr;
-  double porosity = unset;  ///< of the region at this end; unset where it erodes
+  double porosity = unset;  ///< of the region at this end; unset where it exchanges fines
 };
 
 struct Ends {
@@ -51,7 +51,7 @@ double porosity_behind(const Scene& scene, const Mesh<2>& mesh, const BoundarySe
     const auto& region = mesh.region_names[mesh.element_region[e]];
     if (scene.is_free_water(region)) return 1.0;
     const Soil* soil = scene.find_soil(region);
-    if (soil == nullptr || soil->erosion.law->erodes()) return unset;
+    if (soil == nullptr || soil->exchanges()) return unset;
     return soil->initial_porosity(element_centroid(mesh, e));
   }
   return unset;
@@ -101,8 +101,7 @@ double resistance(const Scene& scene, const Mesh<2>& mesh, double width) {
   for (int e = 0; e < mesh.element_count(); ++e) {
     const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
     if (soil == nullptr) continue;
-    const bool lasts =
-        !soil->conductivity_law->depends_on_porosity() || !soil->erosion.law->erodes();
+    const bool lasts = !soil->conductivity_law->depends_on_porosity() || !soil->exchanges();
     if (soil->drag != SoilDrag::darcy || !lasts) return unset;
     const double conductivity = soil->conductivity / soil->resistance_along(Vector<2>(0.0, 1.0));
     total += element_volume(mesh, e) / (width * conductivity);

@@ -165,6 +165,24 @@ TEST(ColumnFlow, IsNotThatOfHeadsWhereConductivityGrows) {
   EXPECT_TRUE(flow_of(scratch, testing::double_point::column(), conductivity, grows));
 }
 
+TEST(ColumnFlow, IsNotThatOfHeadsWhereSoilThatOnlyDepositsClogs) {
+  const ScratchFolder scratch;
+  const std::string deposits = "\ndeposition = {coefficient = 20.0}";
+  const std::string clogs = "\nconductivity_law = \"kozeny-carman\"";
+  const auto with = [&](const std::string& inflow, const std::string& more) {
+    Case<2> c = testing::double_point::column();
+    std::string& text = c.document.text;
+    text.replace(text.find("explicit"), 8, "implicit");
+    const std::string law = "erosion.law = \"none\"";  // of the buffers
+    text.replace(text.find(law), law.size(), law + more);
+    return flow_of(scratch, c, "darcy_flux = 0.02", inflow);
+  };
+  EXPECT_TRUE(with("pressure = 9810.0", clogs));
+  EXPECT_TRUE(with("pressure = 9810.0", deposits));
+  EXPECT_FALSE(with("pressure = 9810.0", deposits + clogs));
+  EXPECT_TRUE(with("darcy_flux = 0.02", deposits + clogs));
+}
+
 TEST(ColumnFlow, IsNotThereWhereNothingIsExact) {
   const ScratchFolder scratch;
   const Case<2> c = testing::double_point::column();
@@ -185,6 +203,23 @@ Case<2> implicit_square() {
   std::string& text = c.document.text;
   text.replace(text.find("explicit"), 8, "implicit");
   return c;
+}
+
+TEST(ColumnFlow, IsNotThatOfAVelocityInSoilThatDeposits) {
+  const ScratchFolder scratch;
+  Case<2> c = implicit_square();
+  c.document.text += "[soil.base]\nlike = \"specimen\"\nerosion.law = \"none\"\n";
+  c.mesh.region_names.emplace_back("base");
+  c.mesh.element_region = {0, 0, 0, 0, 1, 1, 1, 1};  // below the top
+  const auto with = [&](const std::string& more) {
+    Case<2> changed = c;
+    changed.document.text += more;
+    return flow_of(scratch, changed, "pressure = 6.0e3", "velocity = 0.1");
+  };
+  const auto flow = with("");
+  ASSERT_TRUE(flow);
+  EXPECT_NEAR(flow->flux, 0.1 * 0.3, 1e-16);
+  EXPECT_FALSE(with("deposition = {coefficient = 20.0}\n"));
 }
 
 TEST(ColumnFlow, CrossesTheBeddingAndIsNotThereWhereTheBeddingIsTilted) {
