@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "common/errors.hpp"
 #include "physics/head.hpp"
 
 namespace suffuse {
@@ -79,10 +80,42 @@ std::vector<double> fines_content(const ResultsReader& results, std::size_t inde
   return values;
 }
 
+/// Erodible fractions of rigid soil with the porosity of the scene, which all stages have in
+/// common; not a number in cells without soil. Solid points are sorted by element.
+template <int Dim>
+std::vector<double> erodible_by_scene(const ResultsReader& results, const Mesh<Dim>& mesh,
+                                      const std::string& where) {
+  const Scene& scene = results.scene().scene;
+  const bool of_points = where == "solid";
+  const std::vector<Vector<Dim>> points =
+      of_points ? results.point_positions<Dim>(0, where) : std::vector<Vector<Dim>>{};
+  std::vector<double> values;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const Soil* soil = scene.find_soil(mesh.region_names[mesh.element_region[e]]);
+    const auto add = [&](const Vector<Dim>& x) {
+      values.push_back(soil == nullptr ? unset : soil->porosity_max() - soil->initial_porosity(x));
+    };
+    if (!of_points) {
+      add(element_centroid(mesh, e));
+    } else if (soil != nullptr) {
+      const std::size_t end = values.size() + scene.points.solid_per_element;
+      while (values.size() < std::min(end, points.size())) add(points[values.size()]);
+    }
+  }
+  if (of_points && values.size() != points.size()) {
+    throw FileError(results.folder() + ": has other solid points than its scene says");
+  }
+  return values;
+}
+
 std::vector<double> fines_left(const ResultsReader& results, std::size_t index,
                                const std::string& where) {
   std::vector<double> values = results.field(index, where, "erodible_fraction").values;
-  const std::vector<double> start = results.field(0, where, "erodible_fraction").values;
+  const std::vector<double> start = results.scene().scene.initial_from.empty()
+                                        ? results.field(0, where, "erodible_fraction").values
+                                        : with_mesh(results, [&](const auto& mesh) {
+                                            return erodible_by_scene(results, mesh, where);
+                                          });
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = start[i] > 0.0 ? values[i] / start[i] : std::numeric_limits<double>::quiet_NaN();
   }

@@ -16,8 +16,8 @@ namespace suffuse {
 /// - "conductivity" of cells, m/s: that along bedding of soil filled with clean water
 /// - "saturation" of cells, where every soil is saturated: 1
 /// - "fines_content" of cells and solid points: erodible share of the dry mass, n_e / (1 - n)
-/// - "fines_left" of cells and solid points of rigid soil: the erodible fines over those of the
-///   first snapshot; not a number where there were none
+/// - "fines_left" of cells and solid points of rigid soil: the erodible fines over those before the
+///   first stage; not a number where there were none
 /// - "water_fraction" at the vertices of elements: n S - n_f
 /// - "safety" of cells, against heave: see `critical_gradient` and `upward_gradient`
 std::vector<std::string> all_field_names(const ResultsReader& results, std::size_t index,

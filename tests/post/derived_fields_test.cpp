@@ -76,6 +76,42 @@ TEST_F(DerivedFields, FollowFromStoredOnes) {
   EXPECT_TRUE(std::isinf(safety[7]));
 }
 
+/// Half of the fines of the scene are left at the start of a stage; one region never had any.
+TEST(FinesLeft, OfALaterStageCountFromBeforeTheFirst) {
+  const ScratchFolder scratch;
+  Case<2> c = unit_square_case();
+  c.document =
+      parse_scene(c.document.text +
+                      "[soil.base]\nlike = \"specimen\"\nporosity = 0.4\n"
+                      "porosity_gradient = [0.0, 0.0]\n",
+                  "stage.toml",
+                  {"initial.from=before.results", "soil.specimen.porosity_gradient=[0.01, 0.05]"});
+  c.mesh.region_names.emplace_back("base");
+  c.mesh.element_region = {0, 1, 0, 1, 0, 0, 0, 0};
+  Field half{"erodible_fraction", "1", 1, {}};
+  for (int e = 0; e < c.mesh.element_count(); ++e) {
+    const Soil& soil = c.document.scene.soils[c.mesh.element_region[e]];
+    half.values.push_back(0.5 * (0.4 - soil.initial_porosity(element_centroid(c.mesh, e))));
+  }
+  Snapshot s;
+  s.cell = s.solid = {half};  // points lie in the middle of elements
+  {
+    ResultsWriter<2> writer(scratch / "stage.results", c);
+    writer.write_snapshot(s);
+  }
+  const ResultsReader run(scratch / "stage.results");
+  for (const auto* where : {"cell", "solid"}) {
+    const std::vector<double> left = any_field(run, 0, where, "fines_left").values;
+    for (int e = 0; e < c.mesh.element_count(); ++e) {
+      if (c.mesh.element_region[e] == 1) {
+        EXPECT_TRUE(std::isnan(left[e])) << where << " " << e;
+      } else {
+        EXPECT_NEAR(left[e], 0.5, 1e-14) << where << " " << e;
+      }
+    }
+  }
+}
+
 TEST_F(DerivedFields, AreListedWithTheOthers) {
   const auto find = [&](const std::string& name, const std::string& on) {
     return find_field(results(), 0, name, on, "test").where;
