@@ -333,11 +333,11 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
   const std::vector<Vector<Dim>> place = points_.position;
   move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(),
               equilibrium.law_increments(), points_, this->threads_);
-  if (inertia_.acts()) space_points(this->grid_, supports_, equilibrium.displacement(), points_);
-  if (!inertia_.acts()) fill_holes(this->grid_, supports_, points_, start_);
   SoilKinetics found;
+  if (!inertia_.acts()) found = kinetics(step, place);
+  if (inertia_.acts()) space_points(this->grid_, supports_, equilibrium.displacement(), points_);
+  if (!step.stays) fill_holes(this->grid_, supports_, points_, start_);
   if (!inertia_.acts()) {
-    found = kinetics(step, place);
     if (!step.stays) find_crossing_forces(step);
     if (step.has_inertia) crossing_forces_.keep();  // the soil has come to rest
     if (!step.has_inertia && !step.stays) held_share_ = 0.0;

@@ -9,7 +9,8 @@ namespace {
 /// Least barycentric coordinate of a point that was moved into an element.
 constexpr double depth = 0.05;
 
-/// Elements without points that others connect with a free outer face.
+/// Elements without points that are no holes: they have a free outer face or a node without soil
+/// around it, or others without points connect them with such an element.
 template <int Dim>
 std::vector<char> outside_of_soil(const Grid<Dim>& grid, const Supports<Dim>& supports,
                                   const std::vector<int>& count) {
@@ -22,6 +23,15 @@ std::vector<char> outside_of_soil(const Grid<Dim>& grid, const Supports<Dim>& su
   };
   for (int f = 0; f < grid.face_count(); ++f) {
     if (grid.is_outer(f) && !supports.holds_normal(grid, f)) add(grid.face_left[f]);
+  }
+  std::vector<char> at_soil(grid.mesh.node_count(), 0);
+  for (std::size_t e = 0; e < count.size(); ++e) {
+    if (count[e] == 0) continue;
+    for (const int node : grid.mesh.elements[e]) at_soil[node] = 1;
+  }
+  const auto is_bare = [&](int node) { return at_soil[node] == 0; };
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    if (std::ranges::any_of(grid.mesh.elements[e], is_bare)) add(e);
   }
   while (!found.empty()) {
     const int e = found.back();
@@ -43,13 +53,13 @@ void fill_holes(const Grid<Dim>& grid, const Supports<Dim>& supports, SolidPoint
   for (int e = 0; e < elements; ++e) count[e] = static_cast<int>(sorted.of(e).size());
   const std::vector<char> outside = outside_of_soil(grid, supports, count);
   for (int e = 0; e < elements; ++e) {
-    if (count[e] > 0 || outside[e] != 0) continue;
+    if (count[e] > 0 || outside[e] != 0 || supports.is_rigid(e)) continue;
     int nearest = -1;
     std::array<double, Dim + 1> place{};
     double least = 0.0;
     for (int k = 0; k <= Dim; ++k) {
       const int other = grid.across(e, k);
-      if (other < 0 || count[other] < 2) continue;
+      if (other < 0 || count[other] < 2 || supports.is_rigid(other)) continue;
       for (const int p : sorted.of(other)) {
         if (points.element[p] != other) continue;
         const auto from_e = barycentric(grid.mesh, e, points.position[p]);

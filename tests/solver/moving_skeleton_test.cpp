@@ -487,6 +487,40 @@ TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
   EXPECT_GT(moved, points.size() / 2);
 }
 
+/// A hole takes a point of a neighbour. A closed space beside the soil is no hole, and rigid soil
+/// neither gives points nor takes them.
+TEST(MovingPoints, FillHolesAndNoSpaceThatSoilHasNeverFilled) {
+  const Body b(model::column_mesh(4, 12, 0.25, 1.0), sinking_scene());
+  const Mesh<2>& mesh = b.grid.mesh;
+  Supports<2> closed(b.grid, std::vector<Support>(b.grid.face_count()));
+  for (int i = 0; i < mesh.node_count(); ++i) closed.hold(i);
+  const auto filled_after = [&](const Supports<2>& supports, const auto& is_left_out) {
+    const SolidPoints<2>& all = b.solid.points();
+    std::vector<PointPlace<2>> places;
+    std::vector<double> volumes;
+    for (int p = 0; p < all.size(); ++p) {
+      const int e = all.element[p];
+      if (is_left_out(e)) continue;
+      places.push_back({e, barycentric(mesh, e, all.position[p])});
+      volumes.push_back(all.volume[p]);
+    }
+    SolidPoints<2> points(mesh, places, volumes);
+    std::vector<Vector<2>> start = points.position;
+    fill_holes(b.grid, supports, points, start);
+    return std::ranges::count_if(points.element, is_left_out);
+  };
+  const auto upper = [&](int e) { return element_centroid(mesh, e)[1] > 0.5; };
+  EXPECT_EQ(filled_after(closed, upper), 0);
+  constexpr int hole = 30;
+  const auto one = [](int e) { return e == hole; };
+  EXPECT_EQ(filled_after(closed, one), 1);
+  Supports<2> rigid = closed;
+  for (int k = 0; k < 3; ++k) {
+    if (const int e = b.grid.across(hole, k); e >= 0) rigid.hold_element(mesh, e);
+  }
+  EXPECT_EQ(filled_after(rigid, one), 0);
+}
+
 /// Under a constant load, soil moves only as water leaves, even if many points have changed their
 /// element.
 TEST(MovingPoints, ThatCrossElementsDoNotMoveTheSoilAtOnce) {

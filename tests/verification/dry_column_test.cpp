@@ -13,11 +13,11 @@ namespace dry_column_test {
 
 using model::fixed_on;
 
-constexpr int cells = 8;       // per width of the column, which is 1 m
+constexpr int few_cells = 8;   // per width of the column, which is 1 m
 constexpr double reach = 3.5;  // m
 
 /// Sand of 31 degrees without cohesion where `is_sand` holds, under a liquid as light as air.
-model::ModelRun sand(double height, double cell_height,
+model::ModelRun sand(int cells, double height, double cell_height,
                      const std::function<bool(const Vector<2>&)>& is_sand,
                      AtFailure failure = AtFailure::follow) {
   Mesh<2> mesh =
@@ -68,9 +68,10 @@ Shape shape_of(const Snapshot& snapshot) {
 }
 
 /// Lube, Huppert, Sparks and Freundt (Phys. Rev. E 72 (2005) 041301): 1.2 a for a below 1.8. The
-/// mesh is coarse: in a low column only a few rows flow.
-double runout_over_that_of_sand(double aspect) {
-  model::ModelRun run = sand(aspect + 0.25, 1.0 / cells, column(aspect));
+/// mesh is coarse: in a low column only a few rows flow. From 8 to 16 cells the share grows from
+/// 0.80 to 0.91 for a = 1 and from 0.54 to 0.66 for a = 0.5.
+double runout_over_that_of_sand(double aspect, int cells) {
+  model::ModelRun run = sand(cells, aspect + 0.25, 1.0 / cells, column(aspect));
   EXPECT_TRUE(run.model().solid().has_inertia());
   const double solid = run.model().ledger().solid;
   std::vector<double> times;
@@ -98,18 +99,19 @@ double runout_over_that_of_sand(double aspect) {
 }
 
 TEST(DryColumn, CollapsesFromTheStartAndRunsOutAboutAsFarAsSand) {
-  EXPECT_NEAR(runout_over_that_of_sand(1.0), 1.0, 0.2);
-  EXPECT_NEAR(runout_over_that_of_sand(0.5), 1.0, 0.5);
+  EXPECT_NEAR(runout_over_that_of_sand(1.0, 16), 1.0, 0.2);
+  EXPECT_NEAR(runout_over_that_of_sand(0.5, few_cells), 1.0, 0.5);
 }
 
 TEST(DryColumn, IsRefusedWhereTheRunIsToStop) {
-  EXPECT_THROW(sand(1.25, 1.0 / cells, column(1.0), AtFailure::stop), NumericalError);
+  EXPECT_THROW(sand(few_cells, 1.25, 1.0 / few_cells, column(1.0), AtFailure::stop),
+               NumericalError);
 }
 
 /// A slope of 26.6 degrees along the diagonals of cells twice as wide as high.
 TEST(DryBank, StandsWhereItIsLessSteepThanItsFriction) {
   const auto bank = [](const Vector<2>& x) { return 0.5 * x[0] + x[1] < 1.0; };
-  model::ModelRun run = sand(1.25, 0.5 / cells, bank);
+  model::ModelRun run = sand(few_cells, 1.25, 0.5 / few_cells, bank);
   EXPECT_FALSE(run.model().solid().has_inertia());
   const auto states = run.run({1.0}).states;
   EXPECT_EQ(states.back().history.failure_time, 0.0);
