@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "boundary/free_water.hpp"
 #include "physics/head.hpp"
@@ -25,6 +26,32 @@ template <int Dim>
 double outside_pressure(const Scene& scene, double head, const Vector<Dim>& x) {
   const double above = has_gravity(scene.gravity) ? head - height(x, scene.gravity) : head;
   return std::max(0.0, above) * unit_weight(scene.liquid.density, scene.gravity);
+}
+
+/// Faces of elements with soil at outer water: those of a boundary, and those behind elements that
+/// the soil has left. `passed` has the elements that are known to be left.
+template <int Dim>
+std::vector<int> faces_at_water(const Grid<Dim>& grid, const PointsByElement& sorted,
+                                const std::vector<int>& boundary, std::vector<char>& passed) {
+  std::vector<int> faces;
+  std::vector<int> left;
+  const auto add = [&](int element, int face) {
+    if (!sorted.is_empty(element)) {
+      faces.push_back(face);
+    } else if (passed[element] == 0) {
+      passed[element] = 1;
+      left.push_back(element);
+    }
+  };
+  for (const int f : boundary) add(grid.face_left[f], f);
+  while (!left.empty()) {
+    const int e = left.back();
+    left.pop_back();
+    for (int k = 0; k <= Dim; ++k) {
+      if (const int next = grid.across(e, k); next >= 0) add(next, grid.element_face[e][k]);
+    }
+  }
+  return faces;
 }
 
 }  // namespace
@@ -51,13 +78,13 @@ Supports<Dim> scene_supports(const Grid<Dim>& grid, const SoilMap<Dim>& soils) {
 template <int Dim>
 BoundaryLoads<Dim>::BoundaryLoads(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                                   const PointsByElement& sorted)
-    : grid_(grid), scene_(soils.scene()) {
+    : grid_(grid), scene_(soils.scene()), has_free_water_(has_free_water(grid, soils)) {
   for (int b = 0; b < static_cast<int>(scene_.boundaries.size()); ++b) {
     const BoundaryCondition& boundary = scene_.boundaries[b];
     if (!boundary.traction && !boundary.head) continue;
     if (boundary.is_well()) continue;  // it stands still, whatever its water presses on
     std::vector<int> faces = faces_of(grid, boundary.on);
-    if (!boundary.traction && has_free_water(grid, soils)) {
+    if (!boundary.traction) {
       water_.emplace_back(b, std::move(faces));
       continue;
     }
@@ -74,32 +101,40 @@ void BoundaryLoads<Dim>::add(const PointsByElement& sorted, const std::vector<do
                              double time, NodalLoads<Dim>& loads) const {
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     const BoundaryCondition& boundary = scene_.boundaries[boundary_[k]];
-    if (boundary.traction) {
-      const VectorFunction::Components all = boundary.traction->value(time);
-      add_traction(k, sorted, soil_volume, Eigen::Map<const Vector<Dim>>(all.data()), loads);
-      continue;
-    }
-    add_water(surfaces_[k], boundary, sorted, time, loads);
+    const VectorFunction::Components all = boundary.traction->value(time);
+    add_traction(k, sorted, soil_volume, Eigen::Map<const Vector<Dim>>(all.data()), loads);
   }
+  // Free water presses on the soil through the elements that the soil has left (`add_free_water`).
+  std::vector<char> passed(grid_.mesh.elements.size(), has_free_water_ ? 1 : 0);
   for (const auto& [b, faces] : water_) {
-    std::vector<int> beside_soil;
-    for (const int f : faces) {
-      if (!sorted.is_empty(grid_.face_left[f])) beside_soil.push_back(f);
-    }
-    add_water(LoadedSurface<Dim>(grid_, sorted, beside_soil), scene_.boundaries[b], sorted, time,
-              loads);
+    add_water(faces_at_water(grid_, sorted, faces, passed), scene_.boundaries[b], sorted,
+              soil_volume, time, loads);
   }
 }
 
 template <int Dim>
-void BoundaryLoads<Dim>::add_water(const LoadedSurface<Dim>& surface,
-                                   const BoundaryCondition& boundary, const PointsByElement& sorted,
-                                   double time, NodalLoads<Dim>& loads) const {
+void BoundaryLoads<Dim>::add_water(const std::vector<int>& faces, const BoundaryCondition& boundary,
+                                   const PointsByElement& sorted,
+                                   const std::vector<double>& soil_volume, double time,
+                                   NodalLoads<Dim>& loads) const {
   const double head = boundary.head->value(time);
   const auto pressure = [&](const Vector<Dim>& x) {
     return outside_pressure<Dim>(scene_, head, x);
   };
-  surface.add_pressures(grid_, sorted, pressure, loads);
+  LoadedSurface<Dim>(grid_, sorted, faces).add_pressures(grid_, sorted, pressure, loads);
+  if (has_free_water_) return;
+  std::set<int> elements;
+  for (const int f : faces) elements.insert(soil_at(grid_, sorted, f));
+  const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(scene_.gravity.data());
+  const std::vector<char> of_soil = nodes_of_soil(grid_, sorted);
+  for (const int e : elements) {
+    const double above = std::max(0.0, grid_.volume[e] - soil_volume[e]);
+    if (above == 0.0 || pressure(element_centroid(grid_.mesh, e)) == 0.0) continue;
+    const Vector<Dim> weight = scene_.liquid.density * above / (Dim + 1) * g;
+    loads.add(
+        grid_.mesh.elements[e], [&](std::size_t) { return weight; }, EdgeShare<Dim>::volume,
+        of_soil);
+  }
 }
 
 template <int Dim>
@@ -144,7 +179,6 @@ std::vector<double> BoundaryLoads<Dim>::breakpoints() const {
   std::vector<double> times;
   for (const int b : boundary_) {
     const BoundaryCondition& boundary = scene_.boundaries[b];
-    if (!boundary.traction) continue;
     const std::vector<double> more = boundary.traction->breakpoints();
     times.insert(times.end(), more.begin(), more.end());
   }
@@ -155,7 +189,6 @@ template <int Dim>
 double BoundaryLoads<Dim>::largest_change() const {
   double largest = 0.0;
   for (const int b : boundary_) {
-    if (!scene_.boundaries[b].traction) continue;
     const VectorFunction& traction = *scene_.boundaries[b].traction;
     const VectorFunction::Components start = traction.value(0.0);
     for (const auto& [time, value] : traction.knots) {

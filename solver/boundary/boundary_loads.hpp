@@ -47,8 +47,11 @@ class BoundaryLoads {
   void archive(auto& archive) { archive(surfaces_); }
 
  private:
-  void add_water(const LoadedSurface<Dim>& surface, const BoundaryCondition& boundary,
-                 const PointsByElement& sorted, double time, NodalLoads<Dim>& loads) const;
+  /// Adds the pressure of outer water on faces, and the weight of this water above the soil in
+  /// their elements.
+  void add_water(const std::vector<int>& faces, const BoundaryCondition& boundary,
+                 const PointsByElement& sorted, const std::vector<double>& soil_volume, double time,
+                 NodalLoads<Dim>& loads) const;
   void add_traction(std::size_t surface, const PointsByElement& sorted,
                     const std::vector<double>& soil_volume, const Vector<Dim>& traction,
                     NodalLoads<Dim>& loads) const;
@@ -58,9 +61,12 @@ class BoundaryLoads {
   std::vector<int> boundary_;  ///< per surface: index of the scene's boundary entry
   std::vector<LoadedSurface<Dim>> surfaces_;
   std::vector<VirtualStress<Dim>> stress_;  ///< per surface
-  /// Boundaries, by index, and faces of soil under outer water. Where soil can give way to free
-  /// water they stand still: water fills the room and presses on (`add_free_water`).
+  /// Boundaries under outer water, by index, and their faces. The pore pressure of an element acts
+  /// on all of its volume, water above the soil included, so outer water presses on faces of the
+  /// mesh: on a surface that sinks with the soil the difference would strain the topmost points,
+  /// the more the deeper the water is.
   std::vector<std::pair<int, std::vector<int>>> water_;
+  bool has_free_water_;
 };
 
 }  // namespace suffuse
