@@ -2,9 +2,11 @@
 
 /// The soil at one time of a run, from a snapshot.
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "boundary/loads.hpp"
 #include "solid/skeleton.hpp"
 #include "solid/solid_points.hpp"
 
@@ -16,20 +18,27 @@ template <int Dim>
 struct SoilState {
   double time = 0.0;                 ///< s; for the loads on the boundaries
   SolidPoints<Dim> points;           ///< with places and volumes; without stress
-  std::vector<int> id;               ///< per point: its number among the points of the case
+  std::vector<int> region;           ///< per point: region of the mesh that its soil comes from
   std::vector<double> solid_volume;  ///< per point, m3
+  std::vector<double> erodible;      ///< per point: erodible volume at the start, m3
   std::vector<double> fines_left;    ///< per point: remaining share of the erodible fines
   std::vector<double> pressure;      ///< pore pressure on the solid, per element, Pa
   std::vector<double> liquid_mass;   ///< per volume of soil and element, kg/m3
+  /// Surfaces that carry loads, moved with the soil, by the name of their boundary.
+  std::map<std::string, LoadedSurface<Dim>> surfaces;
 };
 
 /// Reads the state from the fields of a snapshot (`soil_fields`). Points of a rigid skeleton are at
-/// their places in the case.
+/// their places in the case. The run has started with the points of the case.
 /// \param soils  with the points of the case
 /// Throws FileError if the snapshot has another number of points or elements.
 template <int Dim>
 SoilState<Dim> soil_state(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
                           const Snapshot& snapshot);
+
+/// Sets the pressures and masses of the liquid for the points of `state`.
+template <int Dim>
+void take_liquid(const SoilMap<Dim>& soils, const Snapshot& snapshot, SoilState<Dim>& state);
 
 /// Names of the fields of elements and solid points that `soil_state` needs; more of points if the
 /// skeleton moves. `saturation` of elements may be missing.

@@ -30,21 +30,6 @@ std::string results_beside_scene(const SceneDocument& document) {
   return (scene / document.scene.initial_from).string();
 }
 
-/// Restores a model of the case to the state of `point`, and returns this state.
-template <int Dim>
-EarlierState<Dim> restored(const Case<Dim>& c, RestartPoint point, const SolverOptions& options) {
-  Plan plan = make_plan(c, {options.threads, point.no_skip});
-  plan.soil_start = SoilStart::stress_later;
-  const OwnPart<Dim> taken = own_part(c, options.ranks);
-  plan.part = taken.part;
-  RunLoop<Dim> loop(taken.own ? *taken.own : c, plan);
-  RunNotes notes{.checks = RowChecks(c.document.scene, plan.row_limits)};
-  StateArchive state(std::move(point.state), loop.model().shared_state());
-  state(loop, notes);
-  state.finish();
-  return loop.model().last_state();
-}
-
 }  // namespace
 
 template <int Dim>
@@ -59,6 +44,30 @@ bool have_same_points(const Case<Dim>& a, const Case<Dim>& b) {
   return have_same_mesh(a, b) && a.solid_points.element == b.solid_points.element &&
          a.solid_points.barycentric == b.solid_points.barycentric &&
          a.solid_points.volume == b.solid_points.volume;
+}
+
+template <int Dim>
+LastState<Dim> read_last_state(const std::string& folder, const Case<Dim>& c,
+                               const SolverOptions& options) {
+  const Scene& scene = c.document.scene;
+  FoundRestart found = newest_restart_point(folder, scene.formulation == Formulation::double_point,
+                                            table_files(scene, c.mesh.region_names.size()));
+  if (!found.point || found.point->case_digest != digest_of(c)) {
+    throw FileError(folder + ": its last state cannot be read" +
+                    (found.damage.empty() ? "" : ": " + found.damage.front()));
+  }
+  LastState<Dim> last{found.point->time, digest_of(*found.point), {}};
+  Plan plan = make_plan(c, {options.threads, found.point->no_skip});
+  plan.soil_start = SoilStart::stress_later;
+  const OwnPart<Dim> taken = own_part(c, options.ranks);
+  plan.part = taken.part;
+  RunLoop<Dim> loop(taken.own ? *taken.own : c, plan);
+  RunNotes notes{.checks = RowChecks(scene, plan.row_limits)};
+  StateArchive archive(std::move(found.point->state), loop.model().shared_state());
+  archive(loop, notes);
+  archive.finish();
+  last.state = loop.model().last_state();
+  return last;
 }
 
 template <int Dim>
@@ -93,23 +102,15 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, const SolverOp
     refuse_source(document, shown + ", after which " + stages.front(),
                   "the regions of soil as there, or formulation = \"single-point\"");
   }
-  FoundRestart found = newest_restart_point(folder, scene.formulation == Formulation::double_point,
-                                            table_files(scene, earlier.mesh.region_names.size()));
-  if (!found.point || found.point->time < scene.time.end ||
-      found.point->case_digest != digest_of(earlier)) {
-    throw FileError(folder + ": its last state cannot be read" +
-                    (found.damage.empty() ? "" : ": " + found.damage.front()));
-  }
-  SourceRun<Dim> result;
-  result.folder = folder;
-  result.sentences.push_back("run: from the state of " + folder +
-                             " at t = " + shown_number(found.point->time) + " s there, digest " +
-                             digest_of(*found.point));
+  LastState<Dim> last = read_last_state(folder, earlier, options);
+  if (last.time < scene.time.end) throw FileError(folder + ": its last state cannot be read");
+  SourceRun<Dim> result{folder, std::move(last.state), {}};
+  result.sentences.push_back("run: from the state of " + folder + " at t = " +
+                             shown_number(last.time) + " s there, digest " + last.digest);
   for (const std::string& difference : scene_differences(earlier.document, document)) {
     result.sentences.push_back("differs: " + difference);
   }
   for (const std::string& stage : stages) result.sentences.push_back("construction: " + stage);
-  result.state = restored(earlier, std::move(*found.point), options);
   if (result.state.moved && result.state.moved->has_inertia) {
     refuse_source(document, shown + ", whose soil still moves at its end",
                   "a run that ends in equilibrium: let it go on to a later time.end with --resume");
@@ -119,6 +120,8 @@ std::optional<SourceRun<Dim>> read_source_run(const Case<Dim>& c, const SolverOp
 
 template bool have_same_points(const Case<2>&, const Case<2>&);
 template bool have_same_points(const Case<3>&, const Case<3>&);
+template LastState<2> read_last_state(const std::string&, const Case<2>&, const SolverOptions&);
+template LastState<3> read_last_state(const std::string&, const Case<3>&, const SolverOptions&);
 template std::optional<SourceRun<2>> read_source_run(const Case<2>&, const SolverOptions&);
 template std::optional<SourceRun<3>> read_source_run(const Case<3>&, const SolverOptions&);
 

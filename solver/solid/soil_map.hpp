@@ -86,8 +86,9 @@ class SoilMap {
     return moved_region_.empty() ? mesh_.element_region[points_->element[point]]
                                  : moved_region_[point];
   }
+  [[nodiscard]] const Soil& soil_of_region(int region) const { return *soil_of_region_[region]; }
   [[nodiscard]] const Soil& soil_of_point(int point) const {
-    return *soil_of_region_[region_of_point(point)];
+    return soil_of_region(region_of_point(point));
   }
   [[nodiscard]] const ExchangeModel& exchange_of_point(int point) const {
     return exchange_of_region_[region_of_point(point)];

@@ -9,39 +9,6 @@
 namespace suffuse {
 namespace {
 
-/// Displacement of the nodes since the start, m: the weighted mean of that of the points around
-/// each node; 0 without points.
-template <int Dim>
-NodeVectors<Dim> node_displacement(const Grid<Dim>& grid, const MaterialPoints<Dim>& start,
-                                   const SoilState<Dim>& state) {
-  NodeVectors<Dim> sum(grid.mesh.node_count(), Vector<Dim>::Zero());
-  std::vector<double> weight(sum.size(), 0.0);
-  for (int p = 0; p < state.points.size(); ++p) {
-    const int id = state.id[p];
-    const Vector<Dim> moved = state.points.position[p] - start.position(grid.mesh, id);
-    for (int a = 0; a <= Dim; ++a) {
-      const int node = grid.mesh.elements[start.element[id]][a];
-      const double share = start.volume[id] * start.barycentric[id][a];
-      sum[node] += share * moved;
-      weight[node] += share;
-    }
-  }
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    if (weight[i] > 0.0) sum[i] /= weight[i];
-  }
-  return sum;
-}
-
-/// Loads of the scene's boundaries, on surfaces moved with the soil.
-template <int Dim>
-BoundaryLoads<Dim> moved_loads(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                               const SoilState<Dim>& state) {
-  const PointsByElement at_start(grid.mesh.element_count(), soils.points().element);
-  BoundaryLoads<Dim> loads(grid, soils, at_start);
-  loads.move(at_start, node_displacement(grid, soils.points(), state));
-  return loads;
-}
-
 /// Additional cohesion per point, Pa: half of the unit weight times `depth` at smaller depths, 0
 /// elsewhere.
 template <int Dim>
@@ -52,7 +19,7 @@ std::vector<double> surface_cohesion(const SoilMap<Dim>& soils, const SoilState<
   const double acceleration = std::hypot(gravity[0], gravity[1], gravity[2]);
   for (std::size_t p = 0; p < depths.size(); ++p) {
     if (depths[p] >= depth) continue;
-    const Soil& soil = soils.soil_of_point(state.id[p]);
+    const Soil& soil = soils.soil_of_region(state.region[p]);
     const double density = soil.grain_density * state.solid_volume[p] / state.points.volume[p] +
                            state.liquid_mass[state.points.element[p]];
     cohesion[p] = 0.5 * density * acceleration * depth;
@@ -73,13 +40,12 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
   std::vector<PointSkeleton> skeleton;
   SoilMass mass{.solid = {}, .liquid = state.liquid_mass};
   for (int p = 0; p < state.points.size(); ++p) {
-    const Soil& soil = soils.soil_of_point(state.id[p]);
+    const Soil& soil = soils.soil_of_region(state.region[p]);
     skeleton.push_back(skeleton_at(soil.skeleton, state.fines_left[p]));
     // Other laws than those with a strength would yield under the loads of a trial in one step.
-    const bool fails = failing.includes(soil.region) && soil.skeleton.law->yields();
-    if (soil.skeleton.moves() && !fails) {
-      skeleton.back().law = skeleton_law("elastic");
-    }
+    const bool is_elastic =
+        soil.skeleton.moves() && !(failing.includes(soil.region) && soil.skeleton.law->yields());
+    if (is_elastic) skeleton.back().law = skeleton_law("elastic");
     mass.solid.push_back(state.solid_volume[p] * soil.grain_density);
   }
   NodalLoads<Dim> loads = displacements == Displacements::linear
@@ -87,7 +53,10 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
                               : NodalLoads<Dim>(grid, std::make_shared<QuadraticShapes<Dim>>(grid));
   const std::vector<double> volume = soil_volumes(state.points, sorted, classes);
   add_weight(grid, state.points, volume, mass, soils.scene().gravity, loads);
-  moved_loads(grid, soils, state).add(sorted, volume, state.time, loads);
+  const PointsByElement at_start(grid.mesh.element_count(), soils.points().element);
+  BoundaryLoads<Dim> boundaries(grid, soils, at_start);
+  boundaries.place(state.surfaces);
+  boundaries.add(sorted, volume, state.time, loads);
   if (has_free_water(grid, soils)) {
     add_free_water(grid, sorted, volume, state.pressure, state.liquid_mass, soils.scene().gravity,
                    loads);

@@ -10,8 +10,6 @@
 #include "case/soil_height.hpp"
 #include "common/errors.hpp"
 #include "common/pending_file.hpp"
-#include "driver/plan.hpp"
-#include "driver/run_loop.hpp"
 #include "driver/source_run.hpp"
 #include "files/layout.hpp"
 #include "files/number_text.hpp"
@@ -22,6 +20,7 @@
 #include "results/reader.hpp"
 #include "results/vtkhdf.hpp"
 #include "scene/scene_schema.hpp"
+#include "tools/strength_states.hpp"
 
 namespace suffuse {
 namespace {
@@ -51,51 +50,6 @@ void refuse_without_strength(const SceneDocument& document) {
   throw InputError(document.path +
                    ": --strength-reduction: got no soil with a strength; expected law = " +
                    listed(laws) + " under [soil.NAME.skeleton]");
-}
-
-/// Snapshot of water and solid at t = 0, before any motion. The soil may be unable to carry its
-/// loads; it is therefore made rigid, or elastic if free water or an earlier run requires soil that
-/// moves.
-template <int Dim>
-Snapshot start_snapshot(const Case<Dim>& c, int threads) {
-  Case<Dim> strong = c;
-  Scene& scene = strong.document.scene;
-  for (Soil& soil : scene.soils) soil.skeleton = {};
-  const auto has_no_soil = [&](const std::string& region) {
-    return c.document.scene.is_free_water(region) && !scene.is_free_water(region);
-  };
-  // In the run that it starts from soil may have moved.
-  if (!scene.initial_from.empty() || std::ranges::any_of(c.mesh.region_names, has_no_soil)) {
-    scene.soils = c.document.scene.soils;
-    for (Soil& soil : scene.soils) {
-      if (soil.skeleton.moves()) soil.skeleton.law = skeleton_law("elastic");
-    }
-  }
-  const std::optional<SourceRun<Dim>> earlier = read_source_run(strong, {.threads = threads});
-  const RunLoop<Dim> loop(strong, make_plan(strong, {.threads = threads}),
-                          earlier ? &earlier->state : nullptr);
-  return loop.model().snapshot(loop.model().flow_state());
-}
-
-/// The fields of a snapshot that `soil_state` reads.
-template <int Dim>
-Snapshot read_snapshot(const ResultsReader& results, std::size_t index) {
-  const bool moves = results.scene().scene.moves();
-  Snapshot snapshot;
-  snapshot.time = results.times()[index];
-  SoilFields names = soil_fields(moves);
-  const std::vector<std::string> cell = results.field_names(index, "cell");
-  if (std::ranges::count(cell, "saturation") > 0) names.cell.push_back("saturation");
-  for (const char* name : names.cell) snapshot.cell.push_back(results.field(index, "cell", name));
-  for (const char* name : names.solid) {
-    snapshot.solid.push_back(results.field(index, "solid", name));
-  }
-  if (!moves) return snapshot;
-  for (const Vector<Dim>& x : results.point_positions<Dim>(index, "solid")) {
-    snapshot.solid_positions.insert(snapshot.solid_positions.end(), {x[0], x[1], 0.0});
-    if constexpr (Dim == 3) snapshot.solid_positions.back() = x[2];
-  }
-  return snapshot;
 }
 
 [[noreturn]] void refuse_option(const std::string& option, const std::string& found,
@@ -241,13 +195,13 @@ void warn_of_tension(const Case<Dim>& c, const FailingSoil& failing) {
 template <int Dim>
 class StrengthTable {
  public:
-  StrengthTable(const Case<Dim>& c, const StrengthReductionOptions& options)
-      : options_(options), grid_(c.mesh), soils_(c) {}
+  StrengthTable(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                const StrengthReductionOptions& options)
+      : options_(options), grid_(grid), soils_(soils) {}
 
   /// Adds a row if there is a factor, and returns it. Otherwise adds the reason to `without`.
   /// \param where  name of the state in sentences
-  std::optional<double> add(const Snapshot& snapshot, const std::string& where) {
-    const SoilState<Dim> state = soil_state(grid_, soils_, snapshot);
+  std::optional<double> add(const SoilState<Dim>& state, const std::string& where) {
     warn_of_suction(state, where);
     SafetyFactor found = find_safety_factor(grid_, soils_, state, options_.failing,
                                             options_.displacements, options_.threads);
@@ -378,7 +332,7 @@ class StrengthTable {
   /// Text such as: soil "fill" at (1.5, 2)
   [[nodiscard]] std::string soil_at(const SoilState<Dim>& state, int point) const {
     std::string text =
-        "soil " + shown_value(soils_.soil_of_point(state.id[point]).region) + " at (";
+        "soil " + shown_value(soils_.soil_of_region(state.region[point]).region) + " at (";
     for (int k = 0; k < Dim; ++k)
       text += (k > 0 ? ", " : "") + short_text(state.points.position[point][k]);
     return text + ')';
@@ -413,13 +367,9 @@ class StrengthTable {
     double left = 0.0;
     double start = 0.0;
     for (int p = 0; p < state.points.size(); ++p) {
-      const int id = state.id[p];
-      const Soil& soil = soils_.soil_of_point(id);
-      if (!has_strength(soil)) continue;
-      const double erodible =
-          soils_.points().volume[id] * (soil.porosity_max() - soils_.initial_porosity(id));
-      start += erodible;
-      left += state.fines_left[p] * erodible;
+      if (!has_strength(soils_.soil_of_region(state.region[p]))) continue;
+      start += state.erodible[p];
+      left += state.fines_left[p] * state.erodible[p];
     }
     return start > 0.0 ? left / start : 1.0;
   }
@@ -439,8 +389,8 @@ class StrengthTable {
   }
 
   const StrengthReductionOptions& options_;
-  Grid<Dim> grid_;
-  SoilMap<Dim> soils_;
+  const Grid<Dim>& grid_;
+  const SoilMap<Dim>& soils_;
   std::vector<double> mechanism_;  ///< Dim values per node, m
   std::vector<double> has_soil_;   ///< 1 or 0 per element
   double factor_ = 0.0;
@@ -459,9 +409,11 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
     refuse_option("--mechanism", "a file with --time all", "one time");
   }
   TextOutput output(options.output);
-  StrengthTable<Dim> table(c, options);
+  const Grid<Dim> grid(c.mesh);
+  const SoilMap<Dim> soils(c);
+  StrengthTable<Dim> table(grid, soils, options);
   if (options.state.empty()) {
-    table.add(start_snapshot(c, options.threads), "at the start");
+    table.add(start_state(c, grid, soils, options.threads), "at the start");
   } else {
     const ResultsReader results(options.state);
     const Case<Dim> of_run = read_case<Dim>(layout::in_folder(options.state, layout::case_copy));
@@ -471,7 +423,8 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
       const std::string time = shown_number(results.times()[index]);
       warn_of_other_heads(c.document.scene, of_run.document.scene, results.times()[index]);
       const std::optional<double> factor =
-          table.add(read_snapshot<Dim>(results, index), options.state + " at t = " + time + " s");
+          table.add(run_state(results, of_run, index, grid, soils, options.threads),
+                    options.state + " at t = " + time + " s");
       if (!factor) continue;
       if (*factor < 1.0 && !last.empty() && !options.quiet) {
         std::fprintf(stderr, "%s: the factor falls below 1 between t = %s and %s s\n",

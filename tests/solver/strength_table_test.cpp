@@ -662,6 +662,50 @@ TEST(StrengthTable, SameBitsOnTwoThreads) {
 }
 
 // ------------------------------------------------------------------------------------------
+// stages
+
+/// Clay that sinks under a footing by an eighth of its depth.
+std::string sunk_clay(const std::string& traction, const std::string& start, double end) {
+  return "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
+         "[geometry]\nfile = \"footing.geo\"\n[mesh]\nsize = 0.2\nstructure = \"free\"\n"
+         "[liquid]\ndensity = 1000.0\nbulk_modulus = inf\nviscosity = 1e-3\n"
+         "[soil.clay]\nporosity = 0.5\nskeleton_fraction = 0.5\ngrain_density = 2650.0\n"
+         "conductivity = 1e-3\n[soil.clay.skeleton]\nlaw = \"mohr-coulomb\"\nyoung = 2e5\n"
+         "poisson = 0.2\nfriction = 20.0\ncohesion = 20e3\n"
+         "[[boundary]]\non = \"top\"\npressure = 0.0\n"
+         "[[boundary]]\non = \"foot\"\npressure = 0.0\ntraction = " +
+         traction +
+         "\n[[boundary]]\non = \"bottom\"\nfix = \"both\"\n"
+         "[[boundary]]\non = \"sides\"\nfix = \"normal\"\n[initial]\n" +
+         start + "\n[time]\nend = " + number_text(end) +
+         "\nfailure = \"stop\"\n[output]\nevery = " + number_text(end) + "\n";
+}
+
+/// The next run has other numbers for points that have moved; their soil and strength are the same.
+TEST(StrengthTable, ALaterStageHasTheFactorOfTheLastState) {
+  const Workshop w;
+  w.folder().write("footing.geo",
+                   "Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 1, 0};\n"
+                   "Point(4) = {0.5, 1, 0}; Point(5) = {0, 1, 0};\n"
+                   "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};\n"
+                   "Line(5) = {5, 1};\nCurve Loop(1) = {1, 2, 3, 4, 5};\nPlane Surface(1) = {1};\n"
+                   "Physical Surface(\"clay\") = {1};\nPhysical Curve(\"bottom\") = {1};\n"
+                   "Physical Curve(\"sides\") = {2, 5};\nPhysical Curve(\"top\") = {3};\n"
+                   "Physical Curve(\"foot\") = {4};\n");
+  const std::string load = "[[0.0, 0.0, 0.0], [500.0, 0.0, -4e4]]";
+  w.mesh("first", sunk_clay(load, "water_level = 1.0", 1000.0));
+  w.solve("first");
+  w.mesh("second", sunk_clay("[0.0, -4e4]", "from = \"first.results\"", 1.0));
+  w.solve("second");
+  const double last = w.factors("first", "--state first.results").at("factor")[0];
+  EXPECT_NEAR(w.factors("second").at("factor")[0], last, 1e-9 * last);
+  EXPECT_NEAR(w.factors("second", "--state second.results").at("factor")[0], last, 1e-3 * last);
+  EXPECT_EQ(w.refusal("second.case.h5 --strength-reduction --state second.results --time 0"),
+            "--time: got 0 s of a run that starts from \"first.results\", whose soil has moved; "
+            "expected the last state of such a run, at t = 1 s\n");
+}
+
+// ------------------------------------------------------------------------------------------
 // refusals
 
 TEST(StrengthTable, RefusesStatesAndTimesThatDoNotFit) {
