@@ -37,15 +37,7 @@ FlowSolver<Dim>::FlowSolver(const Case<Dim>& c, const Grid<Dim>& grid, const Ske
   std::ranges::sort(kinks_);
   breakpoints_.insert(breakpoints_.end(), kinks_.begin(), kinks_.end());
   std::ranges::sort(breakpoints_);
-  if (std::ranges::find(scene_.soils, SoilDrag::ergun, &Soil::drag) == scene_.soils.end()) return;
-  for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    const Soil& soil = soils_.soil_of_element(e);
-    const bool has_ergun = soil.drag == SoilDrag::ergun;
-    grain_size_.push_back(has_ergun
-                              ? ergun_grain_size(soil.conductivity, initial_porosity_[e],
-                                                 scene_.liquid.density, scene_.liquid.viscosity)
-                              : std::numeric_limits<double>::infinity());
-  }
+  has_ergun_ = std::ranges::count(scene_.soils, SoilDrag::ergun, &Soil::drag) > 0;
 }
 
 template <int Dim>
@@ -105,7 +97,7 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
   result.water_volume = pores.water_volume;
   result.mixture_density.resize(elements);
   result.drag.resize(elements);
-  result.quadratic_drag.resize(grain_size_.size());
+  result.quadratic_drag.resize(has_ergun_ ? elements : 0);
   result.face_concentration = face_concentration;
   const double water_density = scene_.liquid.density;
   const bool has_air = soils_.free_space().drains() && !skeleton_.filling().empty();
@@ -123,8 +115,12 @@ FlowCoefficients<Dim> FlowSolver<Dim>::coefficients_of(
                    soils_.conductivity_factor(e) * soil.easier *
                        conductivity_at(model.conductivity, model.viscosity, start_porosity(e),
                                        soil.porosity, concentration));
-    if (!grain_size_.empty()) {
-      result.quadratic_drag[e] = ergun_quadratic_drag(porosity, water_density, grain_size_[e]);
+    if (soils_.soil_of_element(e).drag == SoilDrag::ergun) {
+      const double grain_size =
+          ergun_grain_size(soils_.soil_of_element(e).conductivity, start_porosity(e), water_density,
+                           scene_.liquid.viscosity);
+      result.quadratic_drag[e] =
+          ergun_quadratic_drag(porosity, water_density, grain_size) / soil.easier;
     }
     if (soils_.soil_of_element(e).erosion.momentum_transfer) {
       const double flux = pores.flux.empty() ? unset : pores.flux[e];

@@ -182,7 +182,7 @@ class FlowSolver {
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] int threads() const { return threads_; }
-  [[nodiscard]] bool has_ergun() const { return !grain_size_.empty(); }
+  [[nodiscard]] bool has_ergun() const { return has_ergun_; }
   [[nodiscard]] Vector<Dim> gravity() const;
   /// Sets the boundary values to those at the end of a step, and concentrations to their means over
   /// the step; both times in s. Levels of reservoirs have risen at these rates, m/s.
@@ -221,7 +221,7 @@ class FlowSolver {
   std::vector<double> breakpoints_;
   std::vector<double> kinks_;
   std::vector<double> initial_porosity_;  ///< per element, at its centroid
-  std::vector<double> grain_size_;  ///< per element, of Ergun's drag, m; empty if no soil has it
+  bool has_ergun_ = false;                ///< a soil has Ergun's drag
   double grain_density_ = unset;
   bool suction_warned_ = false;
   std::vector<std::string> warnings_;

@@ -8,7 +8,7 @@
 #include "linear/lagged_preconditioner.hpp"
 #include "linear/newton_system.hpp"
 #include "linear/shared_system.hpp"
-#include "mixed/mixed_stage.hpp"
+#include "mixed/sealed_pieces.hpp"
 
 namespace suffuse {
 
@@ -46,8 +46,10 @@ class PressureSystem {
   void solve(MixedStage<Dim>& stage) {
     assemble(stage, {});
     find_load(stage);
-    for (const int e : stage.faces.correction().sealed_root()) {
-      if (e >= 0 && !stage.stores(e)) matrix_.hold_level(e);
+    const std::vector<char> stores = pieces_that_store(stage);
+    for (std::size_t p = 0; p < stores.size(); ++p) {
+      const int e = stage.faces.correction().sealed_root()[p];
+      if (e >= 0 && stores[p] == 0) matrix_.hold_level(e);
     }
     const SymmetricSystem system{matrix_.values(), load_, guess_, tolerance_};
     const Eigen::VectorXd solution = shared_ ? shared_->solve(system) : solver_.solve(system);

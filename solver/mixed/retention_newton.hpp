@@ -215,25 +215,14 @@ class RetentionNewton {
     return any_of_all(model_.grid.ranks(), switched);
   }
 
-  /// Whether storage fixes the level of the pressure in a sealed piece.
-  [[nodiscard]] bool is_level_held(int piece) const {
-    const auto stores = [&](int e) {
-      if (faces_.correction().sealed_piece()[e] != piece) return false;
-      if (stage_.stores(e)) return true;
-      return !side_storage_.empty() &&
-             std::ranges::any_of(side_storage_[e], [](double s) { return s > 0.0; });
-    };
-    bool held = false;
-    for (int e = 0; e < model_.grid.mesh.element_count() && !held; ++e) held = stores(e);
-    return any_of_all(model_.grid.ranks(), held);
-  }
   /// Opens the seepage face with the highest pressure where nothing fixes the level. Returns
   /// whether any was opened.
   bool hold_levels() {
     const FluxCorrection<Dim>& correction = faces_.correction();
+    const std::vector<char> stores = pieces_that_store(stage_, side_storage_);
     bool opened = false;
     for (int p = 0; p < correction.sealed_piece_count(); ++p) {
-      if (is_level_held(p)) continue;
+      if (stores[p] != 0) continue;
       if (open_highest(p)) {
         opened = true;
       } else if (correction.sealed_root()[p] >= 0) {

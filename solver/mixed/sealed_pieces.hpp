@@ -6,12 +6,19 @@
 
 namespace suffuse {
 
-/// Whether the first element of each sealed piece stores liquid as its pressure rises.
+/// Whether an element of each sealed piece stores liquid as its pressure rises: this fixes the
+/// level of the pressure.
+/// \param side_storage  of the sides of elements, in addition; may be empty
 template <int Dim>
-std::vector<char> pieces_that_store(const MixedStage<Dim>& stage) {
-  std::vector<double> stores;
-  for (const int e : stage.faces.correction().sealed_root()) {
-    stores.push_back(e >= 0 && stage.stores(e) ? 1.0 : 0.0);
+std::vector<char> pieces_that_store(const MixedStage<Dim>& stage,
+                                    const ElementField<Dim>& side_storage = {}) {
+  const std::vector<int>& piece = stage.faces.correction().sealed_piece();
+  std::vector<double> stores(stage.faces.correction().sealed_piece_count(), 0.0);
+  for (std::size_t e = 0; e < piece.size() && !stores.empty(); ++e) {
+    const auto positive = [](double s) { return s > 0.0; };
+    const bool at_sides = !side_storage.empty() && std::ranges::any_of(side_storage[e], positive);
+    const bool is_stored = at_sides || stage.stores(static_cast<int>(e));
+    if (piece[e] >= 0 && is_stored) stores[piece[e]] = 1.0;
   }
   stage.model.grid.ranks().largest(stores);
   return {stores.begin(), stores.end()};
