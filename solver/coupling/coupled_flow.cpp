@@ -41,21 +41,18 @@ CoupledStep<Dim> FlowOfMovingSolid<Dim>::solve(const FlowInterval<Dim>& interval
           step);
     };
     std::optional<Unsolved> why = find();
+    const bool accepted = !why && flow_.accepts(ahead, step.flow);
+    for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats; ++repeat) {
+      if (!accepted || why || !flow_.let_out_expansion(step.flow)) break;
+      why = find();
+    }
     if (why) failure_.count_unsolved(step.flow.start);
     if (why && !flow_.is_shortest(step.flow) && !failure_.is_stuck()) {
       flow_.reject(step.flow);
     } else if (why) {
       failure_.step_unsolved(step.flow.start, *why);
       flow_.plan_anew(ahead, step.flow);
-    } else if (flow_.accepts(ahead, step.flow)) {
-      for (int repeat = 0; repeat < implicit_thresholds.expansion_repeats && !why; ++repeat) {
-        if (!flow_.let_out_expansion(step.flow)) break;
-        why = find();
-      }
-      if (why) {
-        flow_.reject(step.flow);
-        continue;
-      }
+    } else if (accepted) {
       check_pores(grid_, solid_, *step.motion);
       return step;
     }
@@ -167,7 +164,10 @@ std::vector<PassTiming> CoupledFlow<Dim>::passes() const {
 
 template <int Dim>
 void CoupledFlow<Dim>::describe(HistoryRow& row) const {
-  if (moving_) row.failure_time = moving_->failure().time();
+  if (!moving_) return;
+  row.failure_time = moving_->failure().time();
+  row.has_failed = moving_->failure().has_failed();
+  row.has_inertia = moving_->failure().has_inertia();
 }
 
 template <int Dim>

@@ -28,7 +28,8 @@ class Failure {
   /// Longest motion of the next step, over the height of an element there.
   [[nodiscard]] double longest_travel() const { return watches() ? watched_travel : max_travel; }
   /// Time of the last loss of equilibrium, s; 0: never, or at the start.
-  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] double time() const { return has_failed() ? time_ : 0.0; }
+  [[nodiscard]] bool has_failed() const { return time_ >= 0.0; }
 
   /// Whether steps have become so short that the run makes no progress: all those with inertia, or
   /// those in equilibrium of which most trials have no solution.
@@ -72,7 +73,7 @@ class Failure {
   MovingSkeleton<Dim>& solid_;
   bool follows_;
   RepeatedFailure<Dim> repeated_;
-  double time_ = 0.0;          ///< see `time`
+  double time_ = -1.0;         ///< of the last loss of equilibrium, s; below 0: never
   double rested_ = 0.0;        ///< soil with inertia has been at rest for this time, s
   bool long_steps_ = false;    ///< a long step has followed the last sudden change
   int counted_steps_ = 0;      ///< steps with inertia since they were last counted ...

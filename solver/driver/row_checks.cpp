@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "common/errors.hpp"
 
@@ -172,8 +173,7 @@ std::string RowChecks::check_overshoot(const HistoryRow& row) {
 /// Soil that loses strength slowly comes to a new equilibrium with each small motion. Whether and
 /// when no equilibrium is found depends on mesh and steps.
 std::string RowChecks::check_creep(const HistoryRow& row) {
-  if (row.failure_time > 0.0 || row.inertia > 0.0 ||
-      !(row.displacement_max > limits_.watched_motion)) {
+  if (row.has_failed || !(row.displacement_max > limits_.watched_motion)) {
     return "";
   }
   std::ostringstream message;
@@ -186,17 +186,14 @@ std::string RowChecks::check_creep(const HistoryRow& row) {
 
 std::string RowChecks::check_failure(const HistoryRow& row) {
   std::ostringstream message;
+  const bool fell = std::exchange(falls_, row.has_inertia);
   if (row.failure_time != failure_warned_) {
     failure_warned_ = row.failure_time;
-    falls_ = row.inertia > 0.0;
     message << "the soil has lost its equilibrium at t = " << row.failure_time
             << " s; from there on it moves with its inertia, until it has come to rest";
     if (!falls_) message << ", by t = " << row.t << " s";
-  } else if (falls_ && row.inertia == 0.0) {
-    falls_ = false;
+  } else if (fell && !falls_) {
     message << "the soil has come to rest by t = " << row.t << " s";
-  } else if (row.inertia > 0.0) {
-    falls_ = true;  // from the start on
   }
   return message.str();
 }

@@ -67,6 +67,9 @@ struct HistoryRow {
   double newton_iterations = 0.0;  ///< of the solid's equilibrium, since the start
   double inertia = 0.0;  ///< forces of inertia over the loads, in the last step; 0 in equilibrium
   double failure_time = 0.0;  ///< last loss of equilibrium, s; 0: never, or at t = 0
+  // Not in the table:
+  bool has_failed = false;   ///< the soil has lost its equilibrium
+  bool has_inertia = false;  ///< the soil moves with its inertia
   // Bounds of `flux_out` where mesh.error is given, m3/s. Where there are none: half the interval
   // that the mesh is estimated to leave, or 0 without an estimate.
   double flux_out_low = 0.0;

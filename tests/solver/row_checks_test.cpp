@@ -84,28 +84,30 @@ TEST_F(Rows, FinesThatDriveTheFlowAreToldOfOnce) {
 }
 
 TEST_F(Rows, SoilThatFailsAndComesToRestIsToldOf) {
-  const auto row = [](double t, double failure, double inertia) {
+  // The share of inertia in the loads is 0 in the step in which inertia starts.
+  const auto row = [](double t, double failure, bool has_inertia) {
     HistoryRow result;
     result.t = t;
     result.failure_time = failure;
-    result.inertia = inertia;
+    result.has_failed = failure > 0.0 || has_inertia;
+    result.has_inertia = has_inertia;
     return result;
   };
   const std::string from_there =
       " s; from there on it moves with its inertia, until it has come to rest";
-  EXPECT_EQ(warning(row(0.0, 0.0, 0.0)), "");
-  EXPECT_EQ(warning(row(2.0, 1.5, 0.2)),
+  EXPECT_EQ(warning(row(0.0, 0.0, false)), "");
+  EXPECT_EQ(warning(row(2.0, 1.5, true)),
             "the soil has lost its equilibrium at t = 1.5" + from_there);
-  EXPECT_EQ(warning(row(3.0, 1.5, 0.1)), "");
-  EXPECT_EQ(warning(row(4.0, 1.5, 0.0)), "the soil has come to rest by t = 4 s");
-  EXPECT_EQ(warning(row(5.0, 1.5, 0.0)), "");
-  EXPECT_EQ(warning(row(7.0, 6.0, 0.0)),
+  EXPECT_EQ(warning(row(3.0, 1.5, true)), "");
+  EXPECT_EQ(warning(row(4.0, 1.5, false)), "the soil has come to rest by t = 4 s");
+  EXPECT_EQ(warning(row(5.0, 1.5, false)), "");
+  EXPECT_EQ(warning(row(7.0, 6.0, false)),
             "the soil has lost its equilibrium at t = 6" + from_there + ", by t = 7 s");
-  EXPECT_EQ(warning(row(8.0, 6.0, 0.0)), "");
+  EXPECT_EQ(warning(row(8.0, 6.0, false)), "");
   RowChecks of_column(scene_);  // it falls from the start on
-  EXPECT_TRUE(of_column.check(row(0.0, 0.0, 0.0)).empty());
-  EXPECT_TRUE(of_column.check(row(1.0, 0.0, 0.4)).empty());
-  EXPECT_EQ(of_column.check(row(2.0, 0.0, 0.0)).size(), 1U);
+  EXPECT_TRUE(of_column.check(row(0.0, 0.0, false)).empty());
+  EXPECT_TRUE(of_column.check(row(1.0, 0.0, true)).empty());
+  EXPECT_EQ(of_column.check(row(2.0, 0.0, false)).size(), 1U);
 }
 
 /// Motion is watched in equilibrium only: a run tells of soil that fails.
@@ -125,10 +127,13 @@ TEST_F(Rows, SoilThatMovesFarInEquilibriumMaySlide) {
   EXPECT_TRUE(levee.check(row).empty());
   RowChecks failed(scene_, {.watched_motion = 0.045});
   row.failure_time = 17000.0;
-  row.inertia = 0.1;
+  row.has_failed = row.has_inertia = true;
   ASSERT_EQ(failed.check(row).size(), 1U);
-  row.inertia = 0.0;
+  row.has_inertia = false;
   ASSERT_EQ(failed.check(row).size(), 1U);
+  RowChecks at_start(scene_, {.watched_motion = 0.045});
+  row.failure_time = 0.0;
+  EXPECT_TRUE(at_start.check(row).empty()) << "it fell at the start";
 }
 
 TEST_F(Rows, WhatWasSaidIsRememberedAcrossAResume) {
