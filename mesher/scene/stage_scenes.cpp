@@ -52,6 +52,9 @@ class Comparison {
       if (!may_change(soil.region)) report(table, "a soil");
       return;
     }
+    if (here_.scene.moves() && there_.moves() && soil.skeleton.moves() != other->skeleton.moves()) {
+      report(table + ".skeleton", soil.skeleton.moves() ? "a law" : "no law");
+    }
     same(table + ".porosity", soil.porosity, other->porosity);
     same(table + ".skeleton_fraction", soil.skeleton_fraction, other->skeleton_fraction);
     same(table + ".grain_density", soil.grain_density, other->grain_density);

@@ -113,7 +113,7 @@ NextStage<Dim> next_stage(const Scene& scene, const Mesh<Dim>& mesh, const Moved
     const bool is_filled = changes(region) && fresh.has_soil[region] != 0;
     stage.soil.element_solid[e] = is_filled ? fresh.element_solid[e] : left[e];
   }
-  stage.soil.surfaces = fresh.surfaces;
+  stage.soil.surfaces = earlier.surfaces;
   return stage;
 }
 

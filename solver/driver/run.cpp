@@ -278,7 +278,8 @@ class Run final : public OutputSink<Dim> {
     info.status = status;
     info.message = message;
     info.steps = loop_.model().steps();
-    info.solid_points = case_.solid_points.size();
+    info.solid_points = case_.document.scene.moves() ? loop_.model().solid().soils().points().size()
+                                                     : case_.solid_points.size();
     info.liquid_points = loop_.model().liquid_points();
     info.elements = case_.mesh.element_count();
     info.threads = options_.threads;

@@ -103,7 +103,8 @@ SoilKinetics MovingSkeleton<Dim>::kinetics(const MotionStep<Dim>& step,
 template <int Dim>
 SoilKinetics MovingSkeleton<Dim>::take_velocities(const MotionStep<Dim>& step) {
   const Scene& scene = this->soils().scene();
-  const double share = step.equilibrium->equilibrium().inertia_norm() / load_norm(scene, step);
+  const double loads = load_norm(scene, step);
+  const double share = loads > 0.0 ? step.equilibrium->equilibrium().inertia_norm() / loads : 0.0;
   const double energy =
       inertia_.take(this->grid_, points_, step.nodes, step.equilibrium->displacement(), step.mass,
                     step.forcing.duration, step.motion.travel, share);

@@ -220,7 +220,6 @@ void ErodingSkeleton<Dim>::start_from(const SolidState& state) {
 template <int Dim>
 void ErodingSkeleton<Dim>::archive(StateArchive& archive) {
   archive(state_);
-  if (archive.restores()) update_porosity();
 }
 
 template class ErodingSkeleton<2>;

@@ -32,6 +32,12 @@ std::vector<double> RigidSkeleton<Dim>::element_porosity() const {
   return result;
 }
 
+template <int Dim>
+void RigidSkeleton<Dim>::archive(StateArchive& archive) {
+  ErodingSkeleton<Dim>::archive(archive);
+  if (archive.restores()) this->update_porosity();
+}
+
 template class RigidSkeleton<2>;
 template class RigidSkeleton<3>;
 

@@ -13,6 +13,7 @@ class RigidSkeleton : public ErodingSkeleton<Dim> {
                 int threads);
 
   [[nodiscard]] std::vector<double> element_porosity() const override;
+  void archive(StateArchive& archive) override;
 
  private:
   std::vector<double> initial_pores_;  ///< volume per element, m3
