@@ -5,8 +5,8 @@
 
 #include "driver/interrupt.hpp"
 #include "driver/transport_cost.hpp"
+#include "field/channel_width.hpp"
 #include "mesh/place_text.hpp"
-#include "solid/channel_width.hpp"
 
 namespace suffuse {
 

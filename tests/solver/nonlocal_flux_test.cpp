@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "solid/channel_width.hpp"
+#include "field/channel_width.hpp"
 #include "solid/rigid_skeleton.hpp"
 #include "solver/model_case.hpp"
 

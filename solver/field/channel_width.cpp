@@ -1,4 +1,4 @@
-#include "solid/channel_width.hpp"
+#include "field/channel_width.hpp"
 
 namespace suffuse {
 namespace {
