@@ -132,8 +132,8 @@ void BoundaryLoads<Dim>::add_water(const std::vector<int>& faces, const Boundary
     if (above == 0.0 || pressure(element_centroid(grid_.mesh, e)) == 0.0) continue;
     const Vector<Dim> weight = scene_.liquid.density * above / (Dim + 1) * g;
     loads.add(
-        grid_.mesh.elements[e], [&](std::size_t) { return weight; }, EdgeShare<Dim>::volume,
-        of_soil);
+        grid_.mesh.elements[e], [&](std::size_t) { return Vector<Dim>(weight); },
+        EdgeShare<Dim>::volume, of_soil);
   }
 }
 
