@@ -8,6 +8,7 @@
 
 #include "boundary/free_water.hpp"
 #include "box_mesh.hpp"
+#include "equilibrium/step_equilibrium.hpp"
 #include "grid/near_element.hpp"
 #include "motion/crossing_forces.hpp"
 #include "motion/held_by_inertia.hpp"
