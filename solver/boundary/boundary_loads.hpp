@@ -34,11 +34,11 @@ class BoundaryLoads {
   [[nodiscard]] std::vector<double> breakpoints() const;
   /// Largest difference of a traction from that at the start, Pa.
   [[nodiscard]] double largest_change() const;
-  /// Moves the loaded surfaces with the soil. Throws NumericalError if one would leave the mesh;
+  /// Moves the surfaces with a traction. Throws NumericalError if one would leave the mesh;
   /// then none has moved.
   void move(const PointsByElement& sorted, const NodeVectors<Dim>& displacement);
 
-  /// The surfaces by the name of their boundary.
+  /// The surfaces with a traction by the name of their boundary.
   [[nodiscard]] std::map<std::string, LoadedSurface<Dim>> surfaces() const;
   /// Sets surfaces to the places where another run has left those of the same boundary, if they
   /// started on the same faces.

@@ -24,7 +24,7 @@ struct SoilState {
   std::vector<double> fines_left;    ///< per point: remaining share of the erodible fines
   std::vector<double> pressure;      ///< pore pressure on the solid, per element, Pa
   std::vector<double> liquid_mass;   ///< per volume of soil and element, kg/m3
-  /// Surfaces that carry loads, moved with the soil, by the name of their boundary.
+  /// Surfaces with a traction, moved with the soil, by the name of their boundary.
   std::map<std::string, LoadedSurface<Dim>> surfaces;
 };
 

@@ -28,7 +28,7 @@ struct MovedSoil {
   CrossingForces<Dim> crossing_forces;
   bool has_inertia = false;
   double held_share = 0.0;  ///< see MovingSkeleton::end_inertia
-  /// Surfaces that carry loads, by the name of their boundary.
+  /// Surfaces with a traction, by the name of their boundary.
   std::map<std::string, LoadedSurface<Dim>> surfaces;
 
   /// What a run changes, in the order of MovingSkeleton::lasting.
