@@ -172,16 +172,21 @@ class Plausibility : private PlausibilityBase<Dim> {
     return count == 0 ? 0.0 : regular_edge<Dim>(volume / count);
   }
 
+  /// Warns of a length, m, that the elements of a soil do not resolve.
+  void check_length(const Soil& soil, const std::string& key, double length,
+                    const std::string& consequence) {
+    const double size = element_size(soil.region);
+    if (length >= elements_of_length * size) return;
+    warn(joined(table_of(soil), key), short_number(length) + " m is shorter than two elements of " +
+                                          short_number(size) + " m, so that " + consequence);
+  }
+
   void check_lengths_of_fields() {
     for (const Soil& soil : scene_.soils) {
       if (!soil.field.varies()) continue;
-      const double length = std::min(soil.field.along, soil.field.across);
-      const double size = element_size(soil.region);
-      if (length >= elements_of_length * size) continue;
-      warn(joined(table_of(soil), "field.correlation"),
-           short_number(length) + " m is shorter than two elements of " + short_number(size) +
-               " m, so that the mesh decides how the conductivity varies; three elements and more "
-               "are usual");
+      check_length(soil, "field.correlation", std::min(soil.field.along, soil.field.across),
+                   "the mesh decides how the conductivity varies; three elements and more are "
+                   "usual");
     }
   }
 
@@ -189,11 +194,7 @@ class Plausibility : private PlausibilityBase<Dim> {
     for (const Soil& soil : scene_.soils) {
       const double length = soil.erosion.length;
       if (length == 0.0 || !depends_on_flux(soil.erosion_model())) continue;
-      const double size = element_size(soil.region);
-      if (length >= elements_of_length * size) continue;
-      warn(joined(table_of(soil), "erosion.length"),
-           short_number(length) + " m is shorter than two elements of " + short_number(size) +
-               " m, so that channels are as wide as the mesh lets them be");
+      check_length(soil, "erosion.length", length, "channels are as wide as the mesh lets them be");
     }
   }
 

@@ -152,7 +152,8 @@ void take_liquid(const SoilMap<Dim>& soils, const Snapshot& snapshot, SoilState<
   const std::vector<double> residual = residual_saturation(soils, state);
   for (std::size_t e = 0; e < elements; ++e) {
     if (state.pressure[e] < 0.0 && !saturation.empty()) {
-      state.pressure[e] *= std::max(0.0, (saturation[e] - residual[e]) / (1.0 - residual[e]));
+      const RetentionModel mean{.residual_saturation = residual[e]};
+      state.pressure[e] *= mean.effective(saturation[e]);
     }
     state.liquid_mass.push_back(water[e] * scene.liquid.density +
                                 fines[e] * scene.soils.front().grain_density);
