@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "boundary/free_water.hpp"
 #include "physics/head.hpp"
@@ -106,30 +105,38 @@ void BoundaryLoads<Dim>::add(const PointsByElement& sorted, const std::vector<do
   }
   // Free water presses on the soil through the elements that the soil has left (`add_free_water`).
   std::vector<char> passed(grid_.mesh.elements.size(), has_free_water_ ? 1 : 0);
+  std::vector<char> weighed(passed.size(), 0);
   for (const auto& [b, faces] : water_) {
-    add_water(faces_at_water(grid_, sorted, faces, passed), scene_.boundaries[b], sorted,
-              soil_volume, time, loads);
+    const std::vector<int> at_water = faces_at_water(grid_, sorted, faces, passed);
+    add_water(at_water, scene_.boundaries[b].head->value(time), sorted, loads);
+    if (has_free_water_) continue;
+    add_weight(at_water, scene_.boundaries[b].head->value(time), sorted, soil_volume, weighed,
+               loads);
   }
 }
 
 template <int Dim>
-void BoundaryLoads<Dim>::add_water(const std::vector<int>& faces, const BoundaryCondition& boundary,
-                                   const PointsByElement& sorted,
-                                   const std::vector<double>& soil_volume, double time,
-                                   NodalLoads<Dim>& loads) const {
-  const double head = boundary.head->value(time);
+void BoundaryLoads<Dim>::add_water(const std::vector<int>& faces, double head,
+                                   const PointsByElement& sorted, NodalLoads<Dim>& loads) const {
   const auto pressure = [&](const Vector<Dim>& x) {
     return outside_pressure<Dim>(scene_, head, x);
   };
   LoadedSurface<Dim>(grid_, sorted, faces).add_pressures(grid_, sorted, pressure, loads);
-  if (has_free_water_) return;
-  std::set<int> elements;
-  for (const int f : faces) elements.insert(soil_at(grid_, sorted, f));
+}
+
+template <int Dim>
+void BoundaryLoads<Dim>::add_weight(const std::vector<int>& faces, double head,
+                                    const PointsByElement& sorted,
+                                    const std::vector<double>& soil_volume,
+                                    std::vector<char>& weighed, NodalLoads<Dim>& loads) const {
   const Vector<Dim> g = Eigen::Map<const Vector<Dim>>(scene_.gravity.data());
   const std::vector<char> of_soil = nodes_of_soil(grid_, sorted);
-  for (const int e : elements) {
-    const double above = std::max(0.0, grid_.volume[e] - soil_volume[e]);
-    if (above == 0.0 || pressure(element_centroid(grid_.mesh, e)) == 0.0) continue;
+  for (const int f : faces) {
+    const int e = soil_at(grid_, sorted, f);
+    const double above = grid_.volume[e] - soil_volume[e];
+    if (weighed[e] != 0 || above <= 0.0) continue;
+    if (outside_pressure<Dim>(scene_, head, element_centroid(grid_.mesh, e)) == 0.0) continue;
+    weighed[e] = 1;
     const Vector<Dim> weight = scene_.liquid.density * above / (Dim + 1) * g;
     loads.add(
         grid_.mesh.elements[e], [&](std::size_t) { return Vector<Dim>(weight); },

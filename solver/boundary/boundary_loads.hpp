@@ -47,11 +47,14 @@ class BoundaryLoads {
   void archive(auto& archive) { archive(surfaces_); }
 
  private:
-  /// Adds the pressure of outer water on faces, and the weight of this water above the soil in
-  /// their elements.
-  void add_water(const std::vector<int>& faces, const BoundaryCondition& boundary,
-                 const PointsByElement& sorted, const std::vector<double>& soil_volume, double time,
+  /// Adds the pressure of outer water of a head, m, on faces.
+  void add_water(const std::vector<int>& faces, double head, const PointsByElement& sorted,
                  NodalLoads<Dim>& loads) const;
+  /// Adds the weight of the outer water above the soil in the elements at these faces, once per
+  /// element: `weighed` has those whose water has been added.
+  void add_weight(const std::vector<int>& faces, double head, const PointsByElement& sorted,
+                  const std::vector<double>& soil_volume, std::vector<char>& weighed,
+                  NodalLoads<Dim>& loads) const;
   void add_traction(std::size_t surface, const PointsByElement& sorted,
                     const std::vector<double>& soil_volume, const Vector<Dim>& traction,
                     NodalLoads<Dim>& loads) const;

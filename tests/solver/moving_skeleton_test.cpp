@@ -439,6 +439,42 @@ TEST(BoundaryLoads, TakeTheSurfacesOfTheSameFacesOnly) {
   EXPECT_NEAR(of_whole.surfaces().at("top").places().front()[1], 0.9, 1e-12);
 }
 
+/// Water above the soil of an element weighs once, however many boundaries the element has.
+TEST(BoundaryLoads, WaterAboveSoilBesideTwoBoundariesWeighsOnce) {
+  Scene scene = oedometer_scene(model::elastic_soil(1e6, 0.2), 0.0);
+  scene.gravity = {0.0, -10.0, 0.0};
+  const auto force = [&scene](Mesh<2> mesh, const std::vector<std::string>& names) {
+    scene.boundaries.clear();
+    for (const std::string& name : names) {
+      scene.boundaries.emplace_back();
+      scene.boundaries.back().on = name;
+      scene.boundaries.back().head = TimeFunction{{{0.0, 3.0}}};
+    }
+    const Body b(std::move(mesh), scene);
+    const PointsByElement sorted(b.grid.mesh.element_count(), b.soils.points().element);
+    std::vector<double> soil_volume = b.grid.volume;
+    for (double& volume : soil_volume) volume *= 0.5;
+    NodalLoads<2> loads(b.grid);
+    BoundaryLoads<2>(b.grid, b.soils, sorted).add(sorted, soil_volume, 1.0, loads);
+    double sum = 0.0;
+    for (const Vector<2>& f : loads.forces()) sum += f[1];
+    return sum;
+  };
+  const Mesh<2> mesh = model::column_mesh(2, 2);
+  Mesh<2> joined = mesh;
+  BoundarySet<2> outer{"outer", {}};
+  for (const BoundarySet<2>& set : mesh.boundaries) {
+    if (set.name == "bottom") continue;
+    outer.faces.insert(outer.faces.end(), set.faces.begin(), set.faces.end());
+  }
+  joined.boundaries = {outer};
+  // Water of 2 m above the top, and in half of each of the five elements at these six faces.
+  const double unit_weight = 1e4;
+  const double weight = unit_weight * (2.0 + 5.0 / 8.0 * 0.5);
+  EXPECT_NEAR(force(mesh, {"left", "right", "top"}), -weight, 1e-9 * weight);
+  EXPECT_NEAR(force(joined, {"outer"}), -weight, 1e-9 * weight);
+}
+
 // ---------------------------------------------------------------------- points that cross elements
 
 TEST(MovingPoints, KeepWhatIsTheirsWhenTheyAreSortedAnew) {
