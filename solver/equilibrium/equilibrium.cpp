@@ -195,9 +195,8 @@ void Equilibrium<Dim>::respond(bool with_tangents, int e) {
   Gradient f = Gradient::Identity() + moved_[e];
   const bool is_shared = dilatation_.is_shared(e);
   if (is_shared) f *= law_factor<Dim>(mean_ratio_[e], ratio_[e]);
-  stress_[e] = is_shared ? Gradient::Zero() : soft_stress(e);
-  if (with_tangents) tangent_[e] = is_shared ? Tangent::Zero() : soft_tangent(e);
   Eigen::Matrix3d kirchhoff = Eigen::Matrix3d::Zero();  // times volume
+  Tangent of_stress = Tangent::Zero();
   for (const int p : body_.sorted.of(e)) {
     const auto& [law, parameters] = body_.skeleton[p];
     const double volume = body_.classes.scale[e] * body_.points.reference_volume[p];
@@ -205,10 +204,14 @@ void Equilibrium<Dim>::respond(bool with_tangents, int e) {
     kirchhoff += volume * skeleton_response<Dim>(*law, parameters, body_.points.skeleton[p], f,
                                                  with_tangents ? &tangent : nullptr)
                               .stress;
-    if (with_tangents) tangent_[e] += volume * tangent;
+    if (with_tangents) of_stress += volume * tangent;
   }
   effective_[e] = kirchhoff.template topLeftCorner<Dim, Dim>();
-  stress_[e] += effective_[e] * inverse_[e].transpose();
+  stress_[e] = soft_stress(e) + effective_[e] * inverse_[e].transpose();
+  if (!with_tangents) return;
+  tangent_[e] = is_shared
+                    ? of_stress
+                    : soft_tangent(e) + first_tangent<Dim>(of_stress, effective_[e], inverse_[e]);
 }
 
 /// Let T be the stress of the laws, Fm = (Jm/J)^(1/d) F and g = dF F^-1: dFm Fm^-1 = g + (theta -
@@ -226,16 +229,14 @@ void Equilibrium<Dim>::share_stress(double spread, bool with_tangents, int e) {
   effective_[e] = working;
 }
 
-/// Sets the tangent of an element that shares its dilatation, from that of its laws. Columns are
-/// the derivatives along each component of dF, and by theta.
+/// Sets the tangent of an element that shares its dilatation, from d tau / d g of its laws. Columns
+/// are the derivatives along each component of dF, and by theta.
 template <int Dim>
 void Equilibrium<Dim>::share_tangent(double mu, const Gradient& working, int e) {
   const Gradient& stress = effective_[e];
   const double mean = stress.trace() / Dim;
   const Gradient to_first = inverse_[e].transpose();
   const Tangent of_law = tangent_[e];
-  const Gradient seen =
-      (Gradient::Identity() + moved_[e]) * law_factor<Dim>(mean_ratio_[e], ratio_[e]);
   Gradient by_f;  // of the mean stress
   typename SharedDilatation<Dim>::Tangent shared;
   for (int k = 0; k <= Dim * Dim; ++k) {
@@ -244,9 +245,8 @@ void Equilibrium<Dim>::share_tangent(double mu, const Gradient& working, int e) 
     const double theta = k < Dim * Dim ? 0.0 : 1.0;
     const Gradient g = df * inverse_[e];
     const Gradient rate = g + (theta - g.trace()) / Dim * Gradient::Identity();
-    const Eigen::Matrix<double, Dim * Dim, 1> first = of_law * (rate * seen).reshaped();
-    const Gradient of_stress =
-        first.reshaped(Dim, Dim) * seen.transpose() + stress * rate.transpose();
+    Gradient of_stress;
+    of_stress.reshaped() = of_law * rate.reshaped();
     const double of_mean = of_stress.trace() / Dim;
     const Gradient of_working = of_stress + (mu * g.trace() - of_mean) * Gradient::Identity();
     const Gradient column = (of_working - working * g.transpose()) * to_first;

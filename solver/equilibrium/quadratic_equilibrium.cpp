@@ -192,11 +192,14 @@ void QuadraticEquilibrium<Dim>::respond(int e) {
     const Gradient moved = displacement_gradient(e, shapes, displacement_);
     const Gradient f = Gradient::Identity() + moved;
     const auto& [law, parameters] = body_.skeleton[at.solid_point];
-    const Eigen::Matrix3d stress =
+    const Gradient inverse = f.inverse();
+    Tangent of_stress;
+    const Gradient stress =
         skeleton_response<Dim>(*law, parameters, body_.points.skeleton[at.solid_point], f,
-                               has_tangents_ ? &at.tangent : nullptr)
-            .stress;
-    const Gradient of_soil = stress.template topLeftCorner<Dim, Dim>() * f.inverse().transpose();
+                               has_tangents_ ? &of_stress : nullptr)
+            .stress.template topLeftCorner<Dim, Dim>();
+    if (has_tangents_) at.tangent = first_tangent<Dim>(of_stress, stress, inverse);
+    const Gradient of_soil = stress * inverse.transpose();
     force_[e] += (soil_volume_[e] * of_soil + soft_[e] * moved -
                   body_.grid.volume[e] * at.pressure * Gradient::Identity()) /
                  points * shapes;

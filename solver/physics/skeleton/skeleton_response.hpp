@@ -11,8 +11,8 @@
 
 namespace suffuse {
 
-/// d P_iJ / d F_kL, Pa: row i + Dim J, column k + Dim L, so that vec(dP) = tangent vec(dF) with
-/// Eigen's order of a matrix's entries.
+/// d A_ij / d B_kl: row i + Dim j, column k + Dim l, so that vec(dA) = tangent vec(dB) with Eigen's
+/// order of a matrix's entries.
 template <int Dim>
 using DeformationTangent = Eigen::Matrix<double, Dim * Dim, Dim * Dim>;
 
@@ -37,13 +37,21 @@ struct SkeletonResponse {
 /// The response to an increment F of the deformation gradient, det F > 0.
 /// \param before     in plane strain (Dim 2) xz and yz are not used
 /// \param increment  F: d(position after) / d(position before)
-/// \param tangent    of P = tau F^-T (its upper left Dim x Dim part), exact; may be null; symmetric
-///                   for associated flow
+/// \param tangent    d tau / d g, Pa, of the upper left Dim x Dim parts, g = dF F^-1; exact; may be
+///                   null
 template <int Dim>
 SkeletonResponse skeleton_response(const SkeletonLaw& law, const SkeletonParameters& parameters,
                                    const SkeletonState& before,
                                    const Eigen::Matrix<double, Dim, Dim>& increment,
                                    DeformationTangent<Dim>* tangent = nullptr);
+
+/// d P / d F of P = tau F^-T, Pa: dP = (d tau - tau g^T) F^-T. Symmetric for associated flow.
+/// \param of_stress  d tau / d g, Pa
+/// \param stress     tau, Pa; `inverse`: F^-1
+template <int Dim>
+DeformationTangent<Dim> first_tangent(const DeformationTangent<Dim>& of_stress,
+                                      const Eigen::Matrix<double, Dim, Dim>& stress,
+                                      const Eigen::Matrix<double, Dim, Dim>& inverse);
 
 /// The elastic left Cauchy-Green tensor for an initial Kirchhoff stress, Pa. The stress must be
 /// admissible for the law, which is not checked.

@@ -66,23 +66,21 @@ SoilElementState state_at(const SkeletonModel& model, const SoilElementState& be
   const Stretch stretch(strain);
   const Matrix3d before_inverse = Stretch(before.strain).tensor(-1.0);
   const Matrix3d increment = stretch.tensor() * before_inverse;
-  DeformationTangent<3> of_increment;
+  DeformationTangent<3> of_gradient;
   const SkeletonResponse response = skeleton_response<3>(*model.law, model.at(fines_left),
-                                                         before.skeleton, increment, &of_increment);
+                                                         before.skeleton, increment, &of_gradient);
   const double volume = std::exp(strain.head<3>().sum());
   SoilElementState state{.strain = strain,
                          .stress = components_of(response.stress) / volume,
                          .skeleton = response.state,
                          .plastic_strain = before.plastic_strain + response.plastic_strain,
                          .fines_left = fines_left};
-  const Matrix3d first_stress = response.stress * increment.inverse().transpose();
+  const Matrix3d inverse = stretch.tensor(-1.0);
   for (int c = 0; c < 4; ++c) {
     const Matrix3d strain_change = tensor_of(PlaneComponents::Unit(c));
-    const Matrix3d change = stretch.change(strain_change) * before_inverse;
-    const Eigen::Vector<double, 9> of_stress = of_increment * change.reshaped();
-    const Matrix3d kirchhoff_change =
-        of_stress.reshaped<Eigen::ColMajor>(3, 3) * increment.transpose() +
-        first_stress * change.transpose();
+    Matrix3d kirchhoff_change;
+    kirchhoff_change.reshaped() =
+        of_gradient * (stretch.change(strain_change) * inverse).reshaped();
     tangent.col(c) =
         components_of(kirchhoff_change) / volume - state.stress * strain_change.trace();
   }
