@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "equilibrium/first_tangent.hpp"
 #include "equilibrium/sharing_volumes.hpp"
 #include "grid/parallel.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "equilibrium/first_tangent.hpp"
 #include "grid/element_field.hpp"
 #include "grid/parallel.hpp"
 

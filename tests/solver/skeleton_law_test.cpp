@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "physics/skeleton/skeleton_response.hpp"
+#include "equilibrium/first_tangent.hpp"
 
 namespace suffuse {
 namespace skeleton_law_test {

@@ -19,17 +19,12 @@ struct Principal {
 };
 
 template <int Dim>
-Principal principal_strains(const Matrix3d& b);
-
-template <>
-Principal principal_strains<3>(const Matrix3d& b) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(b);
-  return {0.5 * solver.eigenvalues().array().log(), solver.eigenvectors()};
-}
-
-/// In plane strain the third direction is known, and the others follow from an angle.
-template <>
-Principal principal_strains<2>(const Matrix3d& b) {
+Principal principal_strains(const Matrix3d& b) {
+  if constexpr (Dim == 3) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(b);
+    return {0.5 * solver.eigenvalues().array().log(), solver.eigenvectors()};
+  }
+  // In plane strain the third direction is known, and the others follow from an angle.
   const double half_difference = 0.5 * (b(0, 0) - b(1, 1));
   const double shear = b(0, 1);
   const double radius = std::sqrt(half_difference * half_difference + shear * shear);
@@ -111,26 +106,6 @@ SkeletonResponse skeleton_response(const SkeletonLaw& law, const SkeletonParamet
   return result;
 }
 
-template <int Dim>
-DeformationTangent<Dim> first_tangent(const DeformationTangent<Dim>& of_stress,
-                                      const Eigen::Matrix<double, Dim, Dim>& stress,
-                                      const Eigen::Matrix<double, Dim, Dim>& inverse) {
-  DeformationTangent<Dim> tangent;
-  for (int l = 0; l < Dim; ++l) {
-    const Eigen::Matrix<double, Dim, 1> turned = stress * inverse.row(l).transpose();
-    for (int k = 0; k < Dim; ++k) {
-      // dF = e_k e_l^T
-      Eigen::Matrix<double, Dim, Dim> change = Eigen::Matrix<double, Dim, Dim>::Zero();
-      for (int m = 0; m < Dim; ++m) {
-        change.reshaped() += inverse(l, m) * of_stress.col(k + Dim * m);
-      }
-      change.col(k) -= turned;
-      tangent.col(k + Dim * l) = (change * inverse.transpose()).reshaped();
-    }
-  }
-  return tangent;
-}
-
 Matrix3d elastic_b_under(const SkeletonParameters& parameters, const Matrix3d& stress) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(stress);
   const Vector3d strain = skeleton::elastic_strain(parameters, solver.eigenvalues());
@@ -143,9 +118,5 @@ template SkeletonResponse skeleton_response<2>(const SkeletonLaw&, const Skeleto
 template SkeletonResponse skeleton_response<3>(const SkeletonLaw&, const SkeletonParameters&,
                                                const SkeletonState&, const Eigen::Matrix3d&,
                                                DeformationTangent<3>*);
-template DeformationTangent<2> first_tangent<2>(const DeformationTangent<2>&,
-                                                const Eigen::Matrix2d&, const Eigen::Matrix2d&);
-template DeformationTangent<3> first_tangent<3>(const DeformationTangent<3>&,
-                                                const Eigen::Matrix3d&, const Eigen::Matrix3d&);
 
 }  // namespace suffuse

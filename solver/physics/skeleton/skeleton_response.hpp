@@ -45,14 +45,6 @@ SkeletonResponse skeleton_response(const SkeletonLaw& law, const SkeletonParamet
                                    const Eigen::Matrix<double, Dim, Dim>& increment,
                                    DeformationTangent<Dim>* tangent = nullptr);
 
-/// d P / d F of P = tau F^-T, Pa: dP = (d tau - tau g^T) F^-T. Symmetric for associated flow.
-/// \param of_stress  d tau / d g, Pa
-/// \param stress     tau, Pa; `inverse`: F^-1
-template <int Dim>
-DeformationTangent<Dim> first_tangent(const DeformationTangent<Dim>& of_stress,
-                                      const Eigen::Matrix<double, Dim, Dim>& stress,
-                                      const Eigen::Matrix<double, Dim, Dim>& inverse);
-
 /// The elastic left Cauchy-Green tensor for an initial Kirchhoff stress, Pa. The stress must be
 /// admissible for the law, which is not checked.
 Eigen::Matrix3d elastic_b_under(const SkeletonParameters& parameters,
