@@ -3,6 +3,9 @@
 /// The tensor I + s d d^T, which differs from I in the direction d only. Soil with bedding conducts
 /// differently across the bedding; fast flow resists changes along its direction most.
 
+#include <algorithm>
+#include <cmath>
+
 #include "grid/element_field.hpp"
 
 namespace suffuse {
@@ -26,6 +29,12 @@ struct DirectionalFactor {
   }
   /// The eigenvalue along d; all others are 1.
   [[nodiscard]] double along_direction() const { return 1.0 + sign * direction.squaredNorm(); }
+  /// The tensor whose inverse is (1 - share) I + share (the inverse of this one): resistances with
+  /// and without a direction add up.
+  [[nodiscard]] DirectionalFactor beside_isotropic(double share) const {
+    return {direction * std::sqrt(share / (share + (1.0 - share) * along_direction())), sign};
+  }
+  [[nodiscard]] double largest_eigenvalue() const { return std::max(1.0, along_direction()); }
   [[nodiscard]] double trace() const { return Dim + sign * direction.squaredNorm(); }
 };
 

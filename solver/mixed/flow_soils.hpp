@@ -27,10 +27,6 @@ struct FlowSoils {
   std::vector<DirectionalFactor<Dim>> bedding;
 
   [[nodiscard]] bool saturated() const { return retention.empty(); }
-  /// Conductivity of an element's soil in its best direction over that along the bedding.
-  [[nodiscard]] double best_over_along(int e) const {
-    return bedding.empty() ? 1.0 : std::max(1.0, bedding[e].along_direction());
-  }
   /// Whether the air in pores moves with soil that moves.
   [[nodiscard]] bool air_moves() const { return !soil_share.empty(); }
   /// The state of an element at a pressure in Pa, with slopes in 1/Pa. k_r stays above zero, as

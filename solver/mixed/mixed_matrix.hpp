@@ -31,6 +31,10 @@ struct MomentumLaw {
   [[nodiscard]] Vector<Dim> directed(int e, const Vector<Dim>& push) const {
     return factor.empty() ? push : factor[e].times(push);
   }
+  /// Mobility in the best direction, m3 s/kg.
+  [[nodiscard]] double best_mobility(int e) const {
+    return mobility[e] * (factor.empty() ? 1.0 : factor[e].largest_eigenvalue());
+  }
 };
 
 template <int Dim>

@@ -104,8 +104,9 @@ struct MixedModel {
   }
   /// Flux through the largest side of a saturated element under gravity alone, m3/s.
   [[nodiscard]] double gravity_flux(int e, const FlowCoefficients<Dim>& c) const {
-    return c.mixture_density[e] * gravity.norm() * c.porosity[e] / c.drag[e] *
-           soils.best_over_along(e) * largest_at_faces(e, face_area);
+    const double best = soils.bedding.empty() ? 1.0 : soils.bedding[e].largest_eigenvalue();
+    return c.mixture_density[e] * gravity.norm() * c.porosity[e] / c.drag[e] * best *
+           largest_at_faces(e, face_area);
   }
 };
 

@@ -3,12 +3,11 @@
 /// One implicit stage of the mixed elements: its equations, and the pressures and fluxes that its
 /// solution has reached.
 
-#include <sstream>
-
 #include "grid/parallel.hpp"
 #include "mixed/mixed_matrix.hpp"
 #include "mixed/stage_faces.hpp"
 #include "physics/numbers.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 
@@ -56,6 +55,7 @@ struct MixedStage {
         flux_scale(guess.flux_scale),
         retains(!saturated && model.has_retention()),
         resistance(model.grid.volume.size()),
+        bedding(model.soils.bedding),
         drive(resistance.size()),
         storage(resistance.size()),
         mean_storage(forcing.mean_storage),
@@ -70,7 +70,7 @@ struct MixedStage {
     bound_walls();
     guess_pressure(guess.rise_rate);
     law.mobility.resize(resistance.size());
-    law.factor = model.soils.bedding;
+    law.factor = bedding;
     law.drive = drive;
     for_each_element([&](int e) { set_mobility(e, 1.0 / resistance[e]); });
     if (retains && model.soils.air_moves() && !is_steady()) share_source();
@@ -130,7 +130,7 @@ struct MixedStage {
   [[nodiscard]] double inflow(int f) const { return faces.inflow(f, coefficients.porosity); }
   /// Flux per pressure, m3/(s Pa), through the element's largest face.
   [[nodiscard]] double conductance_of(int e) const {
-    return law.mobility[e] * model.soils.best_over_along(e) * matrix.largest_product(e);
+    return law.best_mobility(e) * matrix.largest_product(e);
   }
   /// Largest round-off of the flux through a wall at these pressures, m3/s.
   [[nodiscard]] double wall_round_off() const {
@@ -176,11 +176,12 @@ struct MixedStage {
   const double flux_scale;  ///< largest flux through a face in the last stage, m3/s
   const bool retains;       ///< some soil holds liquid under suction
 
-  std::vector<double> resistance;      ///< linear, kg/(m3 s)
-  VectorField<Dim> drive;              ///< without pressure, Pa/m
-  std::vector<double> storage;         ///< per face of the element, m3/(s Pa)
-  std::vector<double> mean_storage;    ///< of mean pressures, m3/(s Pa); may be empty
-  std::vector<double> net_source;      ///< prescribed outflow, m3/s
+  std::vector<double> resistance;               ///< linear, along bedding, kg/(m3 s)
+  std::vector<DirectionalFactor<Dim>> bedding;  ///< mobility over that along bedding; may be empty
+  VectorField<Dim> drive;                       ///< without pressure, Pa/m
+  std::vector<double> storage;                  ///< per face of the element, m3/(s Pa)
+  std::vector<double> mean_storage;             ///< of mean pressures, m3/(s Pa); may be empty
+  std::vector<double> net_source;               ///< prescribed outflow, m3/s
   ElementField<Dim> moved_source;      ///< its share per side where air moves; empty: equal shares
   VectorField<Dim> expected_gradient;  ///< that of the additional mobility, Pa/m; may be empty
   std::vector<LeakyFace> walls;        ///< with the bounded conductance of this stage
@@ -214,6 +215,9 @@ struct MixedStage {
     for_each_element([&](int e) {
       const double inertia = model.settings.inertia ? c.mixture_density[e] / duration : 0.0;
       resistance[e] = (inertia + c.drag[e]) / c.porosity[e];
+      if (!bedding.empty()) {
+        bedding[e] = bedding[e].beside_isotropic(c.drag[e] / (inertia + c.drag[e]));
+      }
       drive[e] = c.mixture_density[e] * model.gravity;
       if (!forcing.force.empty()) drive[e] += forcing.force[e];
       if (inertia > 0.0) drive[e] += inertia * base.velocity[e];
@@ -224,11 +228,9 @@ struct MixedStage {
     together(model.grid.ranks(), [&] {
       for (std::size_t e = 0; e < resistance.size(); ++e) {
         if (resistance[e] > 0.0 && std::isfinite(resistance[e])) continue;
-        std::ostringstream text;
-        text << "the liquid must meet resistance everywhere; "
-             << element_text(model.grid, static_cast<int>(e)) << " has " << resistance[e]
-             << " kg/(m3 s) per flux";
-        throw NumericalError(text.str());
+        throw NumericalError("the liquid must meet resistance everywhere; " +
+                             element_text(model.grid, static_cast<int>(e)) + " has " +
+                             shown_number(resistance[e]) + " kg/(m3 s) per flux");
       }
     });
   }

@@ -102,8 +102,8 @@ class PressureSystem {
     stage.for_each_element([&](int e) {
       const Vector<Dim> gradient = model.pressure_gradient(e, pressure.reference, known_rise_);
       face_push_[e] = law.mobility[e] * law.directed(e, law.drive[e] - gradient);
-      round_off_[e] = 2.0 * epsilon * law.mobility[e] * model.soils.best_over_along(e) *
-                      (law.drive[e].norm() + gradient.norm());
+      round_off_[e] =
+          2.0 * epsilon * law.best_mobility(e) * (law.drive[e].norm() + gradient.norm());
     });
     const auto known = [&](int f) { return pressure.offset[f] + known_rise_[f]; };
     stage.for_each_face([&](int f) {

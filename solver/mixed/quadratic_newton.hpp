@@ -59,7 +59,6 @@ class QuadraticNewton {
 
   void linearise_about(const Field& flux) {
     MomentumLaw<Dim>& law = stage_.law;
-    const std::vector<DirectionalFactor<Dim>>& bedding = stage_.model.soils.bedding;
     law.factor.resize(flux.size());
     stage_.for_each_element([&](int e) {
       const double resistance = stage_.resistance[e];
@@ -67,7 +66,7 @@ class QuadraticNewton {
       const double secant = quadratic_drag_[e] * speed;
       law.mobility[e] = 1.0 / (resistance + secant);
       law.drive[e] = stage_.drive[e] + secant * flux[e];
-      law.factor[e] = bedding.empty() ? DirectionalFactor<Dim>{} : bedding[e];
+      law.factor[e] = stage_.bedding.empty() ? DirectionalFactor<Dim>{} : stage_.bedding[e];
       if (secant > 0.0) {
         law.factor[e] = {std::sqrt(secant / (resistance + 2.0 * secant)) / speed * flux[e], -1.0};
       }
@@ -122,12 +121,12 @@ class QuadraticNewton {
   }
   /// Norm of the residual of momentum at a flux and its push.
   [[nodiscard]] double momentum_error(const Field& flux, const Field& push) const {
-    const std::vector<DirectionalFactor<Dim>>& bedding = stage_.model.soils.bedding;
     double sum = 0.0;
     for (const int e : stage_.model.grid.own_elements()) {
       const double resistance = stage_.resistance[e] + quadratic_drag_[e] * flux[e].norm();
       const double weight = stage_.model.grid.volume[e] * stage_.law.mobility[e];
-      const Vector<Dim> held = bedding.empty() ? flux[e] : bedding[e].inverse_times(flux[e]);
+      const Vector<Dim> held =
+          stage_.bedding.empty() ? flux[e] : stage_.bedding[e].inverse_times(flux[e]);
       sum += weight * (resistance * held - push[e]).squaredNorm();
     }
     return std::sqrt(sum_of_all(stage_.model.grid.ranks(), sum));

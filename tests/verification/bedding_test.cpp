@@ -136,5 +136,36 @@ TEST(Bedding, StaysBesideSoilWithErgunsDrag) {
   }
 }
 
+/// Flux of a column of 1 m that starts from rest, or in its steady state, with the inertia of the
+/// liquid, after ten steps.
+double flux_with_inertia(double k_along, double k_across, InitialFlow start, double step) {
+  Scene scene = model::paper_scene();
+  scene.time.scheme = FlowScheme::implicit_mixed;
+  scene.time.inertia = true;
+  scene.time.step = step;
+  scene.time.end = 10.0 * step;
+  scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
+  scene.initial_flow = start;
+  scene.soils[0].conductivity = k_along;
+  if (k_across != k_along) scene.soils[0].conductivity_across = k_across;
+  scene.boundaries = {model::pressure_on("top", 9810.0), model::pressure_on("bottom", 0.0)};
+  model::ModelRun run(model::make_case(model::column_mesh(3, 8), scene));
+  return run.run({scene.time.end}).states.back().history.flux_out;
+}
+
+/// Inertia has no direction: flow across the layers starts as in isotropic soil with their
+/// conductivity, and steady flow stays as it is in steps of any length.
+TEST(Bedding, LeavesTheInertiaOfTheLiquidAlone) {
+  for (const auto& [along, across] : {std::pair{better, worse}, std::pair{worse, better}}) {
+    for (const double step : {1e-2, 1e-3, 1e-4}) {
+      const double steady = flux_with_inertia(along, across, InitialFlow::steady, step);
+      EXPECT_NEAR(steady / across, 1.0, 1e-9) << step;
+      const double from_rest = flux_with_inertia(along, across, InitialFlow::rest, step);
+      const double isotropic = flux_with_inertia(across, across, InitialFlow::rest, step);
+      EXPECT_NEAR(from_rest / isotropic, 1.0, 1e-9) << step;
+    }
+  }
+}
+
 }  // namespace bedding_test
 }  // namespace suffuse
