@@ -115,7 +115,7 @@ bool StepControl::accept(double start, double error, bool predicted, double& dt)
                      error > 0.5 * rejected_error_ * (1.0 + dt / rejected_dt_);
   if (jumps) {
     jumped_ = settings_.starts_anew_after_jumps;
-    next_ = jumped_ ? planned_ : dt;
+    next_ = jumped_ && !settles_ ? planned_ : dt;
     return true;
   }
   ++rejected_;

@@ -33,8 +33,9 @@ struct StepSettings {
   /// Fields may jump, as when seepage faces open: a step whose error does not fall with its length
   /// is accepted, as no step is short enough.
   bool crosses_jumps = false;
-  /// The step after such a jump has the length planned before it, and its error is not estimated:
-  /// neither length nor slope of the jump predict anything.
+  /// The error of the step after such a jump is not estimated: neither length nor slope of the jump
+  /// predict anything. It has the length planned before the jump, or that of the jump where no step
+  /// since the last kink was judged by its error.
   bool starts_anew_after_jumps = false;
   int threads = 1;
 };

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <utility>
@@ -214,6 +215,35 @@ TEST(StepControl, PressureThatSpreadsAfterAKinkIsNoJump) {
   EXPECT_GT(first_step(false, true), spreads_within);
   EXPECT_GT(first_step(true, false), spreads_within);
   EXPECT_LE(first_step(true, true), spreads_within / 500.0);
+}
+
+/// The error of the step after a jump is not estimated, so it must not have a length that no error
+/// has judged: a load within a second and rows of months made one step of the first month.
+TEST(StepControl, AStepAfterAJumpRightAfterAKinkIsAsLongAsTheJump) {
+  StepSettings s = settings(1e-3, 1e6);
+  s.crosses_jumps = s.starts_anew_after_jumps = s.pressure_spreads = true;
+  const auto lengths = [&](bool after_kink) {
+    StepControl control(s);
+    control.start(1e4, true, 100.0);
+    double start = 0.0;
+    if (!after_kink) {
+      double dt = control.propose(start, 1e6, 1e6);
+      EXPECT_TRUE(control.accept(start, 0.9, false, dt));
+      control.finish(dt);
+      start = dt;
+    }
+    double dt = control.propose(start, 1e6, 1e6);
+    const double planned = dt;
+    while (!control.accept(start, 500.0, true, dt)) continue;
+    control.finish(dt);
+    return std::array<double, 3>{planned, dt, control.propose(start + dt, 1e6, 1e6)};
+  };
+  const auto [planned, jump, next] = lengths(true);
+  EXPECT_LT(jump, 0.1 * planned);
+  EXPECT_EQ(next, jump);
+  const auto [planned_later, jump_later, next_later] = lengths(false);
+  EXPECT_LT(jump_later, 0.2 * planned_later);
+  EXPECT_EQ(next_later, planned_later);
 }
 
 TEST(StepControl, StepsEndOnTheEndOfTheIntervalWithoutShortOnes) {
