@@ -53,24 +53,21 @@ template <int Dim>
 VectorField<Dim> hydraulic_gradient(const Grid<Dim>& grid, const FlowState<Dim>& flow,
                                     const Scene& scene) {
   const double weight = unit_weight(scene.liquid.density, scene.gravity);
-  Vector<Dim> upward;  // grad z
-  for (int d = 0; d < Dim; ++d) {
-    Vector<Dim> unit = Vector<Dim>::Zero();
-    unit[d] = 1.0;
-    upward[d] = height(unit, scene.gravity);
-  }
+  const Vector<Dim> grad_z = Vector<Dim>::NullaryExpr(
+      [&](auto d) { return height(Vector<Dim>(Vector<Dim>::Unit(d)), scene.gravity); });
   VectorField<Dim> result;
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
-    result.push_back(-pressure_gradient(grid, flow, e) / weight - upward);
+    result.push_back(-pressure_gradient(grid, flow, e) / weight - grad_z);
   }
   return result;
 }
 
 template <int Dim>
 SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                           const FlowState<Dim>& flow, const Scene& scene) {
+                           const std::vector<double>& mixture_density, const FlowState<Dim>& flow,
+                           const Scene& scene) {
+  const Vector<Dim> gravity = Eigen::Map<const Vector<Dim>>(scene.gravity.data());
   const double weight = unit_weight(scene.liquid.density, scene.gravity);
-  const double of_initial = scene.liquid.density * conductivity_gravity;
   const VectorField<Dim> gradient = hydraulic_gradient(grid, flow, scene);
   ExactSum now;
   ExactSum saturated;
@@ -78,11 +75,14 @@ SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
   for (const int e : grid.own_elements()) {
     if (!soils.is_soil(e)) continue;
     const Vector<Dim> flux = flux_at(grid, flow.face_flux, e, element_centroid(grid.mesh, e));
-    now.add(weight * grid.volume[e] * flux.dot(gradient[e]));
+    const double excess = mixture_density[e] - scene.liquid.density;
+    const double power = grid.volume[e] * flux.dot(weight * gradient[e] + excess * gravity);
+    now.add(power);
     if (!flow.relative_conductivity.empty() && flow.relative_conductivity[e] < 1.0) continue;
     if (flux.norm() <= soils.still_flux(e)) continue;
-    saturated.add(weight * grid.volume[e] * flux.dot(gradient[e]));
-    initial.add(of_initial * grid.volume[e] * flux.squaredNorm() * soils.resistance_along(e, flux) /
+    saturated.add(power);
+    initial.add(scene.liquid.density * conductivity_gravity * grid.volume[e] * flux.squaredNorm() *
+                soils.resistance_along(e, flux) /
                 (soils.conductivity_factor(e) * soils.soil_of_element(e).conductivity));
   }
   grid.ranks().sum({&now, &saturated, &initial});
@@ -101,17 +101,15 @@ void describe_flow(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficie
   for (const int f : grid.own_faces()) {
     if (!grid.is_border(f)) continue;
     const double flux = state.face_flux[f];
-    if (flux < 0.0) in.add(-flux);
-    if (flux > 0.0) out.add(flux);
+    (flux < 0.0 ? in : out).add(std::abs(flux));
   }
   // Uses node pressures, because element pressures may contain patterns without force.
   const std::vector<double>& pressure = state.node_pressure;
   ExactSum square;
   ExactSum volume;
   for (const int e : grid.own_elements()) {
-    double smooth = 0.0;
-    for (const int i : grid.mesh.elements[e]) smooth += pressure[i] / (Dim + 1);
-    const double off = state.pressure[e] - smooth;
+    double off = state.pressure[e];
+    for (const int i : grid.mesh.elements[e]) off -= pressure[i] / (Dim + 1);
     square.add(grid.volume[e] * off * off);
     volume.add(grid.volume[e]);
   }
@@ -129,11 +127,11 @@ void describe_flow(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficie
 }
 
 template VectorField<2> hydraulic_gradient(const Grid<2>&, const FlowState<2>&, const Scene&);
-template SeepagePower seepage_power(const Grid<2>&, const SoilMap<2>&, const FlowState<2>&,
-                                    const Scene&);
+template SeepagePower seepage_power(const Grid<2>&, const SoilMap<2>&, const std::vector<double>&,
+                                    const FlowState<2>&, const Scene&);
 template VectorField<3> hydraulic_gradient(const Grid<3>&, const FlowState<3>&, const Scene&);
-template SeepagePower seepage_power(const Grid<3>&, const SoilMap<3>&, const FlowState<3>&,
-                                    const Scene&);
+template SeepagePower seepage_power(const Grid<3>&, const SoilMap<3>&, const std::vector<double>&,
+                                    const FlowState<3>&, const Scene&);
 template void describe_flow(const Grid<2>&, const FlowCoefficients<2>&, const FlowState<2>&,
                             const Scene&, HistoryRow&);
 template void describe_flow(const Grid<3>&, const FlowCoefficients<3>&, const FlowState<3>&,

@@ -22,20 +22,21 @@ template <int Dim>
 void describe_flow(const Grid<Dim>& grid, const FlowCoefficients<Dim>& coefficients,
                    const FlowState<Dim>& state, const Scene& scene, HistoryRow& row);
 
-/// Power that water dissipates in soil, W (per metre of thickness in 2D).
+/// Power that the liquid dissipates in soil, W (per metre of thickness in 2D).
 struct SeepagePower {
-  double now = 0.0;           ///< integral of rho_w g q . i over the soil
+  double now = 0.0;           ///< integral of q . (rho_L g - grad p) over the soil
   double saturated = 0.0;     ///< over that which is saturated
   double initial_soil = 0.0;  ///< there, for the same flux with the initial conductivity
-
   /// k_eff / k_0: for flow along a column, its conductivity over the initial one. 0 without flow.
   [[nodiscard]] double conductivity_ratio() const {
     return saturated > 0.0 ? initial_soil / saturated : 0.0;
   }
 };
 
+/// \param mixture_density  rho_L per element, kg/m3
 template <int Dim>
 SeepagePower seepage_power(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
-                           const FlowState<Dim>& flow, const Scene& scene);
+                           const std::vector<double>& mixture_density, const FlowState<Dim>& flow,
+                           const Scene& scene);
 
 }  // namespace suffuse

@@ -201,7 +201,8 @@ HistoryRow TwoPhaseModel<Dim>::common_history(const FlowState<Dim>& flow) const 
   grid_.ranks().sum({&pores, &volume});
   row.porosity_mean = pores.value() / volume.value();
   describe_losses(row);
-  const SeepagePower power = seepage_power(grid_, soils_, flow, scene());
+  const SeepagePower power =
+      seepage_power(grid_, soils_, flow_->coefficients().mixture_density, flow, scene());
   row.power = power.now;
   row.conductivity_ratio = power.conductivity_ratio();
   solid_->describe(row);

@@ -109,6 +109,26 @@ TEST(SeepageMeasures, SoilThatFillsKeepsItsConductivity) {
   }
 }
 
+/// Fines in the liquid drive it by their weight, which is no conductivity of the soil.
+TEST(SeepageMeasures, WeightOfFinesChangesNoConductivity) {
+  Case<2> c = column(false);
+  Scene& scene = c.document.scene;
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.boundaries = {model::pressure_on("top", 0.5 * weight),
+                      model::pressure_on("bottom", 1.2 * weight)};
+  scene.boundaries[0].concentration = 0.2;
+  scene.soils[0].erosion = {};
+  scene.time.end = 2e3;
+  model::ModelRun run(std::move(c));
+  for (const auto& state : run.run({0.0, 500.0, 2e3}).states) {
+    const HistoryRow& row = state.history;
+    std::cout << row.conductivity_ratio << ", " << row.fines_weight_share << '\n';
+    EXPECT_NEAR(row.conductivity_ratio, 1.0, 1e-3);
+    EXPECT_GT(row.power, 0.0);
+  }
+  EXPECT_GT(run.state().history.fines_weight_share, 0.3);
+}
+
 TEST(SeepageMeasures, LossesAreThoseOfTheLedger) {
   model::ModelRun run(column(false));
   run.run({60.0});
