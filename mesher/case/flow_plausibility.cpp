@@ -18,8 +18,8 @@ constexpr double heaviest_rain = 1e-3;
 /// latter is more than `noticed` Pa.
 constexpr double least_pressure = 2e-3;
 constexpr double noticed = 1e3;
-/// Height of water above the crest, in model heights: round-off.
-constexpr double crest_margin = 1e-6;
+/// Round-off of heads and heights, in model heights.
+constexpr double level_margin = 1e-6;
 /// Upward part of the unit normal of faces that rise by 5 degrees.
 constexpr double nearly_level = 0.996;
 
@@ -35,7 +35,9 @@ class Flow : private PlausibilityBase<Dim> {
       check_head("initial.water_level", *scene_.water_level);
     }
     for (const BoundaryCondition& boundary : scene_.boundaries) check_boundary(boundary);
-    check_low_heads();
+    if (!check_low_heads()) {
+      for (const BoundaryCondition& boundary : scene_.boundaries) check_low_head(boundary);
+    }
     return std::move(warnings_);
   }
 
@@ -46,6 +48,7 @@ class Flow : private PlausibilityBase<Dim> {
   using Base::scene_;
   using Base::warn;
   using Base::warnings_;
+  using Base::z;
 
   /// The key that gives the head of a boundary.
   [[nodiscard]] std::string head_key(const BoundaryCondition& b) const {
@@ -107,7 +110,7 @@ class Flow : private PlausibilityBase<Dim> {
   }
 
   /// Without gravity a head is compared with 0, and with the largest length of the model instead of
-  /// its height. One head far below the model is valid: `check_low_heads`.
+  /// its height. Heads below: `check_low_heads` and `check_low_head`.
   void check_head(const std::string& key, double head) {
     const bool falls = has_gravity(scene_.gravity);
     const auto [low, high] = falls ? this->heights() : std::pair(0.0, 0.0);
@@ -122,8 +125,9 @@ class Flow : private PlausibilityBase<Dim> {
   }
 
   /// Heads that all lie far below the model leave it dry: their datum is probably another one.
-  void check_low_heads() {
-    if (!has_gravity(scene_.gravity)) return;
+  /// Returns whether there is a warning of it.
+  bool check_low_heads() {
+    if (!has_gravity(scene_.gravity)) return false;
     const BoundaryCondition* highest = nullptr;
     double head = -std::numeric_limits<double>::infinity();
     for (const BoundaryCondition& b : scene_.boundaries) {
@@ -132,11 +136,35 @@ class Flow : private PlausibilityBase<Dim> {
       head = b.head->range(0.0, scene_.time.end).second;
     }
     const auto [low, high] = this->heights();
-    if (!highest || low - head <= usual_distance(high - low)) return;
+    if (!highest || low - head <= usual_distance(high - low)) return false;
     warn(head_key(*highest), short_number(head) +
                                  " m, the highest head, and the model lies between " +
                                  short_number(low) + " and " + short_number(high) +
                                  " m: no water reaches it. Are heads and heights of one datum?");
+    return true;
+  }
+
+  /// A head that stays below its boundary or well prescribes no pressure there: what holds above
+  /// its level holds everywhere. The level of a reservoir may rise.
+  void check_low_head(const BoundaryCondition& b) {
+    const auto found = std::ranges::find(mesh_.boundaries, b.on, &BoundarySet<Dim>::name);
+    if (!b.head || b.is_reservoir() || b.dry == DryPart::suction || !has_gravity(scene_.gravity) ||
+        found == mesh_.boundaries.end()) {
+      return;
+    }
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const auto& face : found->faces) {
+      for (const int node : face) lowest = std::min(lowest, z(node));
+    }
+    const double head = b.head->range(0.0, scene_.time.end).second;
+    if (head >= lowest - level_margin * this->height_of_model()) return;
+    warn(head_key(b),
+         (b.head->is_constant() ? "" : "at most ") + short_number(head) +
+             " m, and the lowest point of " + shown_value(b.on) + " is at " + short_number(lowest) +
+             " m: no water stands there, and " +
+             (b.dry == DryPart::impervious ? "none crosses it" : "it acts as a seepage face") +
+             ". Are heads and heights of one datum?" +
+             (b.is_well() ? "" : " A suction takes dry = \"suction\""));
   }
 
   /// Water that stands on a slope and is higher than the model would flow over it, to where water
@@ -149,7 +177,7 @@ class Flow : private PlausibilityBase<Dim> {
     }
     const double head = b.head->range(0.0, scene_.time.end).second;
     const double crest = this->heights().second;
-    if (head <= crest + crest_margin * this->height_of_model()) return;
+    if (head <= crest + level_margin * this->height_of_model()) return;
     warn(head_key(b), short_number(head) + " m, and the highest ground is at " +
                           short_number(crest) +
                           " m: water would flow over it, which no result takes into account");

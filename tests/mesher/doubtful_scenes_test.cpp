@@ -103,6 +103,26 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
             "");
 }
 
+/// A head below its boundary is right where it is a suction, rises to the boundary, or is the level
+/// of a reservoir, which may rise.
+TEST(DoubtfulScene, none_of_low_heads_that_act) {
+  fs::current_path(folder);
+  const auto warnings = [](const std::vector<std::string>& overrides) {
+    return warnings_of(read_scene("head-below-its-boundary.toml", overrides));
+  };
+  const std::string retention = R"(soil.specimen.retention={model = "gardner", alpha = 1.0})";
+  EXPECT_EQ(warnings({"boundary[1].head=4"}), "");
+  EXPECT_EQ(warnings({"boundary[1].head=[[0, -7], [60, 4.1]]"}), "");
+  EXPECT_EQ(warnings({"boundary[1].reservoir_area=1"}), "");
+  EXPECT_EQ(warnings({"boundary[1].dry=suction", retention}), "");
+  EXPECT_NE(warnings({retention}), "");
+  const std::string impervious = warnings({"boundary[1].dry=impervious"});
+  EXPECT_NE(impervious.find("no water stands there, and none crosses it."), std::string::npos)
+      << impervious;
+  const std::string table = warnings({"boundary[1].head=[[0, -7], [60, 1]]"});
+  EXPECT_NE(table.find("boundary[1].head: at most 1 m, and"), std::string::npos) << table;
+}
+
 /// Scenes that are run unchanged raise none of these warnings. Scenes that must be refused are
 /// skipped.
 TEST(DoubtfulScene, none_of_the_workflows_and_the_cases) {
