@@ -14,6 +14,8 @@ constexpr double farthest_head = 3.0;
 constexpr double least_far_head = 30.0;
 /// m/s, which are 3.6 m/h; the heaviest rain ever measured had 0.6e-3 m/s.
 constexpr double heaviest_rain = 1e-3;
+/// Hydraulic gradient.
+constexpr double steepest = 100.0;
 /// Least ratio of a pressure to the pressure under water as high as the model. It is checked if the
 /// latter is more than `noticed` Pa.
 constexpr double least_pressure = 2e-3;
@@ -103,10 +105,13 @@ class Flow : private PlausibilityBase<Dim> {
       check_crest(b);
     }
     if (b.rain) check_rain(joined(b.key, "rain"), b.rain->range(0.0, end).second);
-    if (b.pressure) {
-      const auto [low, high] = b.pressure->range(0.0, end);
-      check_pressure(joined(b.key, "pressure"), std::max(std::abs(low), std::abs(high)));
-    }
+    const auto largest = [end](const TimeFunction& value) {
+      const auto [low, high] = value.range(0.0, end);
+      return std::max(std::abs(low), std::abs(high));
+    };
+    if (b.pressure) check_pressure(joined(b.key, "pressure"), largest(*b.pressure));
+    if (b.darcy_flux) check_flux(joined(b.key, "darcy_flux"), largest(*b.darcy_flux), false);
+    if (b.velocity) check_flux(joined(b.key, "velocity"), largest(*b.velocity), true);
   }
 
   /// Without gravity a head is compared with 0, and with the largest length of the model instead of
@@ -201,6 +206,19 @@ class Flow : private PlausibilityBase<Dim> {
     warn(key, short_number(rain) + " m/s, and no soil conducts more than " + short_number(fastest) +
                   " m/s; at most " + short_number(heaviest_rain) +
                   " is usual: 1 mm/h is 2.8e-7 m/s");
+  }
+
+  /// \param speed     of the liquid across a boundary, m/s
+  /// \param in_pores  it is that in the pores, not the volume per area
+  void check_flux(const std::string& key, double speed, bool in_pores) {
+    double gradient = std::numeric_limits<double>::infinity();
+    for (const Soil& soil : scene_.soils) {
+      const double flux = in_pores ? soil.porosity * speed : speed;
+      gradient = std::min(gradient, flux / (soil.conductivity * std::max(1.0, soil.anisotropy())));
+    }
+    if (scene_.soils.empty() || gradient <= steepest) return;
+    warn(key, short_number(speed) + " m/s takes a gradient of at least " + short_number(gradient) +
+                  " in every soil; up to " + short_number(steepest) + " is usual");
   }
 
   void check_pressure(const std::string& key, double pressure) {

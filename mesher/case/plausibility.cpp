@@ -21,6 +21,11 @@ constexpr double longest_model = 1e4;          // m
 constexpr double longest_without_scale = 1e3;  // m, of a file with an unknown unit
 constexpr double lightest_water = 500.0;       // kg/m3
 constexpr double heaviest_water = 2000.0;      // kg/m3
+constexpr double thinnest_water = 1e-4;        // Pa s
+constexpr double thickest_water = 0.1;         // Pa s
+constexpr double softest_water = 1e4;          // Pa
+constexpr double weakest_gravity = 1.6;        // m/s2, that of the moon
+constexpr double strongest_gravity = 5e3;      // m/s2, of a centrifuge
 constexpr double lightest_grains = 1500.0;     // kg/m3
 constexpr double fastest_soil = 1.0;           // m/s
 /// m of water: fine sand drains at higher suctions.
@@ -93,20 +98,28 @@ class Plausibility : private PlausibilityBase<Dim> {
   /// Whether the geometry file states its unit of length: .step files do, and are read in metres.
   [[nodiscard]] bool states_unit() const { return is_step_file(scene_.geometry.file); }
 
+  /// Warns of a value that is not between two usual ones, all of a unit.
+  void check_range(const std::string& key, double value, double low, double high,
+                   const std::string& unit, const std::string& example) {
+    if (value >= low && value <= high) return;
+    warn(key, short_number(value) + " " + unit + "; " + short_number(low) +
+                  (std::isinf(high) ? " and more" : " to " + short_number(high)) + " are usual, " +
+                  example);
+  }
+
   void check_water() {
-    const double density = scene_.liquid.density;
-    if (density >= lightest_water && density <= heaviest_water) return;
-    warn("liquid.density", short_number(density) + " kg/m3; " + short_number(lightest_water) +
-                               " to " + short_number(heaviest_water) +
-                               " are usual, water has 1000");
+    const LiquidProperties& water = scene_.liquid;
+    check_range("liquid.density", water.density, lightest_water, heaviest_water, "kg/m3",
+                "water has 1000");
+    check_range("liquid.viscosity", water.viscosity, thinnest_water, thickest_water, "Pa s",
+                "water has 0.001");
+    check_range("liquid.bulk_modulus", water.bulk_modulus, softest_water, infinite, "Pa",
+                "water has 2e9");
   }
 
   void check_soil(const Soil& soil) {
-    if (soil.grain_density < lightest_grains) {
-      warn(joined(table_of(soil), "grain_density"), short_number(soil.grain_density) + " kg/m3; " +
-                                                        short_number(lightest_grains) +
-                                                        " and more are usual, quartz has 2650");
-    }
+    check_range(joined(table_of(soil), "grain_density"), soil.grain_density, lightest_grains,
+                infinite, "kg/m3", "quartz has 2650");
     const double across =
         std::isnan(soil.conductivity_across) ? soil.conductivity : soil.conductivity_across;
     const double fastest = std::max(soil.conductivity, across);
@@ -118,6 +131,10 @@ class Plausibility : private PlausibilityBase<Dim> {
   }
 
   void check_gravity() {
+    if (has_gravity(scene_.gravity)) {
+      check_range("gravity", std::hypot(scene_.gravity[0], scene_.gravity[1], scene_.gravity[2]),
+                  weakest_gravity, strongest_gravity, "m/s2", "the earth has 9.81");
+    }
     if (!(scene_.gravity[Dim - 1] > 0.0)) return;
     std::vector<double> g(scene_.gravity.begin(), scene_.gravity.begin() + Dim);
     std::string text = shown_value(g) + " points upwards, along +" + (Dim == 2 ? "y" : "z");

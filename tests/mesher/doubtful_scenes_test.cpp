@@ -85,6 +85,17 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
   EXPECT_EQ(mended("gradation-in-metres", {"soil.specimen.conductivity=1e-7"}), "");
   EXPECT_EQ(mended("fines-of-77-per-cent", {"soil.specimen.skeleton_fraction=0.43"}), "");
   EXPECT_EQ(mended("snapshot-every-second", {"output.every=600"}), "");
+  EXPECT_EQ(mended("water-in-other-units", {"liquid.bulk_modulus=1e4", "liquid.viscosity=0.1"}),
+            "");
+  EXPECT_EQ(mended("water-in-other-units", {"liquid.bulk_modulus=inf", "liquid.viscosity=1e-4"}),
+            "");
+  EXPECT_EQ(mended("gravity-in-millimetres", {"gravity=[0, -1962]"}), "");
+  EXPECT_EQ(mended("gravity-in-millimetres", {"gravity=[0, -1.62]"}), "");
+  EXPECT_EQ(mended("flux-in-millimetres-per-hour", {"boundary[1].darcy_flux=0.01"}), "");
+  EXPECT_EQ(mended("flux-in-millimetres-per-hour", {"soil.specimen.conductivity=[1e-4, 1e-2]"}),
+            "");
+  EXPECT_EQ(
+      mended("flux-in-millimetres-per-hour", {R"(boundary[1]={on = "top", velocity = 0.02})"}), "");
   EXPECT_EQ(mended("friction-in-radians", {"soil.specimen.skeleton.friction=1.5"}), "");
   EXPECT_EQ(mended("friction-in-radians", {"soil.specimen.skeleton.friction=0"}), "");
   EXPECT_EQ(mended("cohesion-in-kilopascal", {"soil.specimen.skeleton.cohesion=50"}), "");
