@@ -35,6 +35,10 @@ class Times : private PlausibilityBase<Dim> {
   std::vector<std::string> run() {
     for (const BoundaryCondition& boundary : scene_.boundaries) check_boundary(boundary);
     check_comes("output.every", scene_.output.every, "no row between start and end is written");
+    check_comes("output.snapshot_every", scene_.output.snapshot_every,
+                "no snapshot between start and end is written");
+    check_comes("output.failure_every", scene_.output.failure_every.value_or(0.0),
+                "it adds no rows and snapshots");
     for (const Soil& soil : scene_.soils) {
       check_comes(joined(table_of(soil), "erosion.start"), soil.erosion.start, "nothing erodes");
     }

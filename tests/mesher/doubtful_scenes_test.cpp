@@ -85,6 +85,9 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
   EXPECT_EQ(mended("gradation-in-metres", {"soil.specimen.conductivity=1e-7"}), "");
   EXPECT_EQ(mended("fines-of-77-per-cent", {"soil.specimen.skeleton_fraction=0.43"}), "");
   EXPECT_EQ(mended("snapshot-every-second", {"output.every=600"}), "");
+  EXPECT_EQ(mended("snapshots-after-the-end",
+                   {"output.snapshot_every=3600", "output.failure_every=3600"}),
+            "");
   EXPECT_EQ(mended("water-in-other-units", {"liquid.bulk_modulus=1e4", "liquid.viscosity=0.1"}),
             "");
   EXPECT_EQ(mended("water-in-other-units", {"liquid.bulk_modulus=inf", "liquid.viscosity=1e-4"}),
