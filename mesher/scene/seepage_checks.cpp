@@ -21,6 +21,7 @@ class SeepageChecks : private SceneCheckBase {
       check_reservoir(boundary);
     }
     check_start();
+    check_steady_start();
     check_sections();
     check_unsaturated();
     check_anisotropy();
@@ -200,6 +201,23 @@ class SeepageChecks : private SceneCheckBase {
                                listed(heads, "and"),
            "the level of the liquid at rest, in m, or initial.flow = \"steady\"",
            {"initial.flow", "gravity"});
+  }
+
+  /// Steady flow under gravity whose fluxes are all prescribed stands at no certain level.
+  void check_steady_start() const {
+    const auto sets_level = [this](const BoundaryCondition& b) {
+      const auto is_given = [&](const char* name) { return given(joined(b.key, name)); };
+      return b.seepage_face || is_given("head") || is_given("file") || is_given("pressure") ||
+             is_given("rain");
+    };
+    if (scene_.initial_flow != InitialFlow::steady || !has_gravity(scene_.gravity) ||
+        given("initial.from") || std::ranges::any_of(scene_.boundaries, sets_level)) {
+      return;
+    }
+    report("initial.flow", "\"steady\" under gravity where nothing sets the level of the water",
+           "a boundary with a head, pressure, seepage_face or rain, a well with a head or "
+           "seepage_face, or flow = \"rest\" with initial.water_level",
+           {"gravity"});
   }
 
   void check_sections() const {

@@ -237,7 +237,9 @@ TEST(SuctionWarning, OfTheWaterLevelAtTheStart) {
   EXPECT_EQ(suction("", {"initial.water_level=3.5"}), Warnings{});
   EXPECT_EQ(suction("", {"initial.water_level=3"}),
             Warnings{because("1", "(0.25, 4)", "the water level at the start is 3 m")});
-  EXPECT_EQ(suction("", {"initial.water_level=3", "initial.flow=steady"}), Warnings{});
+  EXPECT_EQ(suction("[[boundary]]\non = \"top\"\nseepage_face = true\n",
+                    {"initial.water_level=3", "initial.flow=steady"}),
+            Warnings{});
   EXPECT_EQ(suction("", {"initial.water_level=3", "gravity=[0, 0]"}), Warnings{});
   EXPECT_EQ(suction("[soil.specimen.retention]\nmodel = \"gardner\"\nalpha = 2.0\n",
                     {"initial.water_level=3"}),
