@@ -86,6 +86,10 @@ class Times : private PlausibilityBase<Dim> {
     const double last = knots.back().first;
     const double end = scene_.time.end;
     check_comes(key, knots.front().first, "of this table only the first value counts");
+    if (last <= 0.0) {
+      warn(key, "the table ends at " + short_number(last) +
+                    " s, and the run begins at 0 s: of this table only the last value counts");
+    }
     const bool too_long = last > longest_table * end;
     const bool too_short = knots.size() >= course && last > 0.0 && last < shortest_table * end;
     if (!too_long && !too_short) return;

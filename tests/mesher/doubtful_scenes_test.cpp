@@ -88,6 +88,7 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
   EXPECT_EQ(mended("snapshots-after-the-end",
                    {"output.snapshot_every=3600", "output.failure_every=3600"}),
             "");
+  EXPECT_EQ(mended("table-before-the-start", {"boundary[0].head=[[-100, 3], [1, 4]]"}), "");
   EXPECT_EQ(mended("water-in-other-units", {"liquid.bulk_modulus=1e4", "liquid.viscosity=0.1"}),
             "");
   EXPECT_EQ(mended("water-in-other-units", {"liquid.bulk_modulus=inf", "liquid.viscosity=1e-4"}),
