@@ -225,6 +225,13 @@ class Plausibility : private PlausibilityBase<Dim> {
       if (std::ranges::any_of(mesh_.elements[e], is_far)) resolved[mesh_.element_region[e]] = true;
     }
     const bool sized = given("mesh.size");
+    const double side = extent(mesh_).minCoeff();
+    if (sized && !scene_.geometry.file.empty() && scene_.mesh.size > side) {
+      warn("mesh.size", short_number(scene_.mesh.size) +
+                            " m is more than the shortest side of the model, " +
+                            short_number(side) + " m; at most a quarter of it is usual");
+      return;
+    }
     const std::string found =
         sized ? short_number(scene_.mesh.size) + " m leaves" : std::string("the mesh has");
     for (std::size_t r = 0; r < resolved.size(); ++r) {

@@ -100,6 +100,7 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
             "");
   EXPECT_EQ(
       mended("flux-in-millimetres-per-hour", {R"(boundary[1]={on = "top", velocity = 0.02})"}), "");
+  EXPECT_EQ(mended("size-above-the-model", {"mesh.size=1"}), "");
   EXPECT_EQ(mended("friction-in-radians", {"soil.specimen.skeleton.friction=1.5"}), "");
   EXPECT_EQ(mended("friction-in-radians", {"soil.specimen.skeleton.friction=0"}), "");
   EXPECT_EQ(mended("cohesion-in-kilopascal", {"soil.specimen.skeleton.cohesion=50"}), "");
