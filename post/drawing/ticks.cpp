@@ -7,8 +7,12 @@
 
 namespace suffuse {
 
+bool is_one_value(double low, double high) {
+  return !(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)));
+}
+
 std::vector<double> round_ticks(double low, double high) {
-  if (!(high > low)) {
+  if (is_one_value(low, high)) {
     const double room = std::max(std::abs(low), 1.0) * 0.05;
     low -= room;
     high += room;

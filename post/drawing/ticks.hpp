@@ -7,8 +7,12 @@
 
 namespace suffuse {
 
-/// 5 to 11 evenly spaced round numbers that enclose [low, high]. Where low = high they enclose an
-/// interval around it.
+/// Whether low and high are one value up to round-off: they differ by no more than 1e-9 of the
+/// larger. An axis between such ends has no ticks, and VTK searches them for ever.
+bool is_one_value(double low, double high);
+
+/// 5 to 11 evenly spaced round numbers that enclose [low, high]. Where low and high are one value
+/// they enclose an interval around it.
 std::vector<double> round_ticks(double low, double high);
 
 /// The label of a tick, six digits at most: 0.5, 3e-5.

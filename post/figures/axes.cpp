@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/errors.hpp"
+#include "drawing/ticks.hpp"
 #include "files/number_text.hpp"
 #include "tables/table_output.hpp"
 
@@ -11,15 +12,16 @@ namespace suffuse {
 
 std::array<double, 2> parse_range(const std::string& text, const std::string& command,
                                   const std::string& option) {
-  const auto colon = text.find(':');
-  if (colon != std::string::npos) {
-    const auto low = parse_number(text.substr(0, colon));
-    const auto high = parse_number(text.substr(colon + 1));
-    if (low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high) {
+  const auto between = text.find_first_of(":,");
+  if (between != std::string::npos) {
+    const auto low = parse_number(text.substr(0, between));
+    const auto high = parse_number(text.substr(between + 1));
+    if (low && high && std::isfinite(*low) && std::isfinite(*high) && !is_one_value(*low, *high)) {
       return {*low, *high};
     }
   }
-  throw InputError(InputProblem{command, option, '"' + text + '"', "LO:HI with LO below HI"});
+  throw InputError(InputProblem{command, option, '"' + text + '"',
+                                "LO:HI with LO below HI by more than round-off"});
 }
 
 namespace {

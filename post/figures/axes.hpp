@@ -17,7 +17,8 @@ inline const std::string seconds_label = "time (s)";
 /// `command`.
 void set_axes(const AxisOptions& options, const std::string& command, Chart& chart);
 
-/// Two numbers, `a:b` with a < b. Throws InputError, naming `command` and `option`.
+/// Two numbers, `a:b` or `a,b` with a below b by more than round-off. Throws InputError, naming
+/// `command` and `option`.
 std::array<double, 2> parse_range(const std::string& text, const std::string& command,
                                   const std::string& option);
 

@@ -15,8 +15,8 @@ namespace suffuse {
 namespace {
 
 constexpr int bar_bands = 256;
-/// Values agree if they differ by less than this share of the larger end of the range.
-constexpr double agreement = 1e-9;
+/// The ends of a range are zero if they are less than this share of the range.
+constexpr double negligible_end = 1e-9;
 constexpr double percentile = 0.01;
 
 /// A value on the scale on which colours are evenly spaced.
@@ -68,7 +68,7 @@ int digits_of(const FieldScale& scale, int least) {
 /// round-off.
 std::string end_text(double value, const FieldScale& scale) {
   const double range = scale.range[1] - scale.range[0];
-  if (!scale.logarithmic && std::abs(value) < agreement * range) value = 0.0;
+  if (!scale.logarithmic && std::abs(value) < negligible_end * range) value = 0.0;
   return digits_text(value, digits_of(scale, 4));
 }
 
@@ -125,7 +125,7 @@ FieldScale value_scale(std::vector<WeightedValue> values, const ScaleRequest& re
   scale.range = {values.front().value, values.back().value};
   const double size = std::max(std::abs(scale.range[0]), std::abs(scale.range[1]));
   if (size <= request.round_off) scale.range = {0.0, 0.0};
-  if (scale.range[1] - scale.range[0] <= agreement * size || size <= request.round_off) {
+  if (is_one_value(scale.range[0], scale.range[1])) {
     scale.uniform = true;
     scale.logarithmic = false;
     return scale;

@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "drawing/picture.hpp"
+#include "figures/axes.hpp"
 #include "figures/categories.hpp"
 #include "figures/map_water.hpp"
 #include "files/number_text.hpp"
@@ -445,15 +446,7 @@ std::vector<std::string> Frames::draw() {
 }  // namespace
 
 std::array<double, 2> parse_range(const std::string& text) {
-  const auto between = text.find_first_of(":,");
-  if (between != std::string::npos) {
-    const auto low = parse_number(text.substr(0, between));
-    const auto high = parse_number(text.substr(between + 1));
-    if (low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high) {
-      return {*low, *high};
-    }
-  }
-  refuse(render_command, "--range", '"' + text + '"', "LO:HI with LO below HI");
+  return parse_range(text, render_command, "--range");
 }
 
 ViewBox parse_view(const std::string& text) {

@@ -9,6 +9,8 @@
 
 #include "common/errors.hpp"
 #include "drawing/ticks.hpp"
+#include "figures/axes.hpp"
+#include "figures/render.hpp"
 #include "post/picture_pixels.hpp"
 #include "post/synthetic_results.hpp"
 
@@ -365,6 +367,24 @@ TEST(Figures, TicksAreRoundAndEnclose) {
   const auto flat = round_ticks(0.3, 0.3);
   EXPECT_LT(flat.front(), 0.3);
   EXPECT_GT(flat.back(), 0.3);
+}
+
+/// VTK searches for ever for ticks of its own between ends that are one value.
+TEST(Figures, AxesOfOneValueUpToRoundOffAreThoseOfAConstant) {
+  for (const double value : {1.0, -1.0, 1e9}) {
+    const double low = value - 3e-16 * std::abs(value);
+    const auto ticks = round_ticks(low, value);
+    EXPECT_GT(ticks.back() - ticks.front(), 0.1 * std::abs(value)) << value;
+    if (!(value > 0.0)) continue;
+    const auto logarithmic = logarithmic_ticks(low, value);
+    EXPECT_GT(logarithmic.high, 1.5 * logarithmic.low) << value;
+  }
+  EXPECT_LT(round_ticks(1.0, 1.0 + 1e-8).back(), 1.0 + 1e-7);
+  Chart chart;
+  AxisOptions options;
+  options.x_range = "1:1.0000000000000002";
+  EXPECT_THROW(set_axes(options, "figure", chart), InputError);
+  EXPECT_THROW(parse_range("1:1.0000000000000002"), InputError);
 }
 
 TEST(LogarithmicTicks, EncloseWhatThereIs) {
