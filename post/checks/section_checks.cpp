@@ -49,8 +49,9 @@ class Section {
   [[nodiscard]] std::vector<LineSegment<2>> below(double x, const std::string& key) const {
     return lines_.below(ground_at(x, key));
   }
-  [[nodiscard]] GroundPlace<2> ground_at(double x, const std::string& key) const {
-    const auto place = lines_.ground_at(x);
+  [[nodiscard]] GroundPlace<2> ground_at(double x, const std::string& key,
+                                         double side = 0.0) const {
+    const auto place = lines_.ground_at(x, side);
     if (!place)
       refuse_setting(results_, key, short_text(x) + " m", "an x with ground of the model");
     return *place;
@@ -349,7 +350,9 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   const std::string toe_key = table + ".landside_toe";
   expect_gravity_along_y(results, "which check.blanket takes as upright");
   expect_river_on_its_side(results, section, settings);
-  const GroundPlace<2> toe = section.ground_at(settings.landside_toe, toe_key);
+  // The slope of the levee ends at the toe, and may carry no water where the land does.
+  const double towards_land = settings.landside_toe > settings.riverside_toe ? 1.0 : -1.0;
+  const GroundPlace<2> toe = section.ground_at(settings.landside_toe, toe_key, towards_land);
   const auto line = section.lines().below(toe);
 
   const BlanketLayers layers = blanket_layers(section, line, settings);
@@ -363,7 +366,7 @@ std::vector<CheckRow> blanket_checks(const ResultsReader& results,
   CheckRow row{.mechanism = "blanket", .where = settings.cover, .clause = "EM 1110-2-1913, B"};
   row.unit = "1";
   row.resistance = critical_gradient(results, results.times().size() - 1)[above.element];
-  row.place = {toe.position[0], toe.position[1]};
+  row.place = {settings.landside_toe, toe.position[1]};
   const double share = toe_share(blanket);
   ToeHeads worst;
   for (std::size_t i = 0; i < results.times().size(); ++i) {

@@ -120,7 +120,7 @@ void VerticalLines<Dim>::add_ground(int element, int corner, const BoundaryCondi
 }
 
 template <int Dim>
-std::optional<GroundPlace<Dim>> VerticalLines<Dim>::ground_at(double x) const {
+std::optional<GroundPlace<Dim>> VerticalLines<Dim>::ground_at(double x, double side) const {
   std::optional<GroundPlace<Dim>> highest;
   for (const GroundPlace<Dim>& place : ground_) {
     // The middle of an edge lies halfway between its ends, which are as far off along x as the
@@ -128,10 +128,13 @@ std::optional<GroundPlace<Dim>> VerticalLines<Dim>::ground_at(double x) const {
     const Vector<Dim> along = Vector<Dim>::Unit(0) - up_[0] * up_;
     const double half = 0.5 * std::abs(place.outward.dot(up_)) / along.norm();
     const double offset = x - place.position[0];
-    if (std::abs(offset) > half) continue;
+    // The place itself is off the middle by one share.
+    const double slack = 2.0 * off_middle * half;
+    const double before_end = half - slack;
+    if (std::abs(offset) > half + slack || side * offset > before_end) continue;
     GroundPlace<Dim> moved = place;
     // Stays off the ends of the edge.
-    const double shift = std::clamp(offset, -half * (1.0 - off_middle), half * (1.0 - off_middle));
+    const double shift = std::clamp(offset, -before_end, before_end);
     const double rise = -place.outward.dot(along) / place.outward.dot(up_);
     moved.position += shift * (Vector<Dim>::Unit(0) + rise * up_);
     moved.weights = barycentric<Dim>(mesh_, place.element, moved.position);

@@ -53,8 +53,9 @@ class VerticalLines {
 
   /// The middle of each face of the ground.
   [[nodiscard]] const std::vector<GroundPlace<Dim>>& ground() const { return ground_; }
-  /// The highest ground at x, m; nothing where there is none. In two dimensions.
-  [[nodiscard]] std::optional<GroundPlace<Dim>> ground_at(double x) const;
+  /// The highest ground at x, m; nothing where there is none. Where two faces meet at x, `side` of
+  /// 1 or -1 takes the one towards larger or smaller x. In two dimensions.
+  [[nodiscard]] std::optional<GroundPlace<Dim>> ground_at(double x, double side = 0.0) const;
   /// The line from a place on the ground down to the end of the soil, in order.
   [[nodiscard]] std::vector<LineSegment<Dim>> below(const GroundPlace<Dim>& place) const;
   /// The highest layer of a region on a line. It ends at the first soil of another region, even

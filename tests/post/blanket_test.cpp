@@ -82,6 +82,29 @@ TEST(Blanket, RoundOffIsNoRiver) {
   EXPECT_TRUE(row.note.starts_with("no river acts")) << row.note;
 }
 
+/// The levee with its slopes and its mirror image, with water of 0.5 m on the land: it stands at
+/// the toe, though not on the slope.
+TEST(Blanket, WaterOnTheLandActsAtTheToeOnBothSides) {
+  std::string scene = levee_scene(blanket());
+  scene.replace(scene.find("head = 0.0"), 10, "head = 0.5");
+  std::string mirrored = levee_scene(blanket());
+  mirrored.replace(mirrored.find("head = 3.0"), 10, "head = 0.5");
+  mirrored.replace(mirrored.find("head = 0.0"), 10, "head = 3.0");
+  const std::string toes = "entry = \"river\", riverside_toe = 0.0, landside_toe = 20.0";
+  mirrored.replace(mirrored.find(toes), toes.size(),
+                   "entry = \"land\", riverside_toe = 20.0, landside_toe = 0.0");
+  std::string ground = levee_ground();
+  ground.replace(ground.find("Line(7) = {6, 7};"), 17,
+                 "Point(11) = {10, 4, 0}; Line(7) = {6, 11}; Line(13) = {11, 7};");
+  ground.replace(ground.find("6, 7, 8, 9}; Plane"), 11, "6, 7, 13, 8, 9}");
+  for (const std::string& side : {scene, mirrored}) {
+    const ScratchFolder scratch;
+    const ResultsReader results = run_programs(scratch, "levee", side, ground);
+    const CheckReport report = check_run(results, results.scene().scene.check);
+    EXPECT_NEAR(row_of(report, "blanket").effect, share_of_theory(1e-4, 1e-6) * 2.5 / 2.0, 1e-6);
+  }
+}
+
 /// The computed head in the note of a row, m.
 double computed_head(const CheckRow& row) {
   const std::size_t begin = row.note.find("theory, ");
