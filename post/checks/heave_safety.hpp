@@ -36,8 +36,12 @@ struct PartSafety {
   std::optional<double> first_below{};
 };
 
+/// Why there are no safeties.
+inline const std::string no_heave_without_gravity =
+    "heave and uplift are not looked at: without gravity no direction is up, as in a plan";
+
 /// All soil first, then the boundaries of the scene, then the regions of free water into which
-/// water rises. Throws FileError.
+/// water rises; empty without gravity. Throws FileError.
 std::vector<PartSafety> safety_of(const ResultsReader& results);
 
 /// The safeties as an aligned table, with an explanation.

@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "files/number_text.hpp"
+#include "physics/head.hpp"
 #include "report/report_pictures.hpp"
 #include "values/derived_fields.hpp"
 #include "values/dry_mass.hpp"
+#include "values/name_words.hpp"
 #include "values/scene_words.hpp"
 
 namespace suffuse {
@@ -35,7 +37,10 @@ std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
   return text + ". ";
 }
 
-std::string safety_sentence(const RunNumbers& numbers, bool moves, const TimeUnit& unit) {
+std::string safety_sentence(const ResultsReader& run, const RunNumbers& numbers,
+                            const TimeUnit& unit) {
+  const Scene& scene = run.scene().scene;
+  if (!has_gravity(scene.gravity)) return capitalized(no_heave_without_gravity) + ". ";
   if (numbers.safety.empty()) return "";
   const auto place = [&](const LeastSafety& least) {
     return short_text(least.safety) + ", at " + place_text(least.place) +
@@ -49,13 +54,14 @@ std::string safety_sentence(const RunNumbers& numbers, bool moves, const TimeUni
                                "structure it falls with the size of elements. ";
   const auto& anywhere = numbers.safety.front().least;
   if (anywhere && anywhere->safety < 1.0) {
-    text += "In all soil it is " + place(*anywhere) +
-            ": below 1 water lifts soil that nothing holds down. It is below 1 for the first time "
-            "at t = " +
-            time_text(numbers.safety.front().first_below.value_or(anywhere->time), unit) +
-            (moves ? ". "
-                   : ": from then on results of a skeleton that stays in place mean nothing, "
-                     "unless the place lies deep in the soil. ");
+    text +=
+        "In all soil it is " + place(*anywhere) +
+        ": below 1 water lifts soil that nothing holds down. It is below 1 for the first time "
+        "at t = " +
+        time_text(numbers.safety.front().first_below.value_or(anywhere->time), unit) +
+        (scene.moves() ? ". "
+                       : ": from then on results of a skeleton that stays in place mean nothing, "
+                         "unless the place lies deep in the soil. ");
   }
   return text;
 }
@@ -109,7 +115,7 @@ std::string summary_text(const ResultsReader& run, const RunNumbers& numbers) {
                      std::to_string(info.elements) +
                      " elements, computed until t = " + time_text(numbers.end, unit) + " in " +
                      std::to_string(info.steps) + " steps. ";
-  text += fines_text(run, numbers) + safety_sentence(numbers, run.scene().scene.moves(), unit);
+  text += fines_text(run, numbers) + safety_sentence(run, numbers, unit);
   if (numbers.worst) {
     text += "The largest residual of the mass balance is " +
             short_text(numbers.worst->worst_residual) + ", of " + numbers.worst->constituent +
