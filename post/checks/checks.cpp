@@ -15,6 +15,7 @@
 #include "files/text_output.hpp"
 #include "physics/head.hpp"
 #include "tables/table_output.hpp"
+#include "values/snapshot_choice.hpp"
 
 namespace suffuse {
 namespace {
@@ -177,7 +178,7 @@ CheckReport check_run(const ResultsReader& results, const CheckSettings& setting
       report.refused.emplace_back(error.what());
     }
   };
-  if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  expect_snapshots(results);
   add([&] { return threshold_checks(results); });
   add([&] { return loss_checks(results); });
   add([&] { return heave_checks(results); });

@@ -12,6 +12,7 @@
 #include "physics/head.hpp"
 #include "tables/table_output.hpp"
 #include "values/derived_fields.hpp"
+#include "values/snapshot_choice.hpp"
 
 namespace suffuse {
 namespace {
@@ -222,7 +223,7 @@ std::vector<PartSafety> safety_in(const ResultsReader& results, const Mesh<Dim>&
                     std::back_inserter(boundaries));
   std::vector<PartSafety> parts{PartSafety{.name = "all soil"}};
   for (const Boundary& boundary : boundaries) parts.push_back({.name = boundary.name});
-  if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  expect_snapshots(results);
   for (std::size_t index = 0; index < results.times().size(); ++index) {
     const SafetyState state{results.times()[index], upward_gradient(results, index),
                             critical_gradient(results, index),

@@ -22,6 +22,7 @@
 #include "values/run_names.hpp"
 #include "values/scene_words.hpp"
 #include "values/sheet.hpp"
+#include "values/snapshot_choice.hpp"
 
 namespace suffuse {
 namespace {
@@ -256,7 +257,7 @@ SketchLayout sketch_layout(const Mesh<2>& mesh, ModelView& view, const std::vect
 }  // namespace
 
 void draw_model_sketch(const ResultsReader& run, const std::string& path) {
-  if (run.times().empty()) throw FileError(run.folder() + ": has no snapshot yet");
+  expect_snapshots(run);
   if (run.dimension() == 3) {
     draw_space_sketch(run, path);
     return;

@@ -44,7 +44,7 @@ std::vector<std::size_t> wanted_snapshots(const ResultsReader& results,
   const auto& times = results.times();
   if (!request.snapshots.empty()) return request.snapshots;
   if (!request.all) return {chosen_snapshot(results, request.time, render_command)};
-  if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  expect_snapshots(results);
   std::vector<std::size_t> every;
   for (std::size_t i = 0; i < times.size(); ++i) every.push_back(i);
   return every;

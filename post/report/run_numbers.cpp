@@ -9,6 +9,7 @@
 #include "values/dry_mass.hpp"
 #include "values/name_words.hpp"
 #include "values/scene_words.hpp"
+#include "values/snapshot_choice.hpp"
 
 namespace suffuse {
 namespace {
@@ -78,6 +79,7 @@ void add_checks(const ResultsReader& run, RunNumbers& numbers) {
 }  // namespace
 
 RunNumbers run_numbers(const ResultsReader& run) {
+  expect_lists_of_snapshots(run);
   RunNumbers numbers;
   numbers.record = read_run_record(run.folder());
   const Table history = run.history();

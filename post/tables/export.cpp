@@ -12,6 +12,7 @@
 #include "common/pending_file.hpp"
 #include "drawing/vtk_messages.hpp"
 #include "files/number_text.hpp"
+#include "values/snapshot_choice.hpp"
 
 namespace suffuse {
 namespace {
@@ -73,7 +74,7 @@ void export_kind(const ResultsReader& results, const std::string& kind, const fs
 }  // namespace
 
 void export_vtu(const ResultsReader& results, const std::string& folder) {
-  if (results.times().empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  expect_snapshots(results);
   check_snapshots(results);
   std::error_code error;
   fs::create_directories(folder, error);

@@ -12,6 +12,7 @@
 #include "values/derived_fields.hpp"
 #include "values/name_words.hpp"
 #include "values/refusal.hpp"
+#include "values/snapshot_choice.hpp"
 
 namespace suffuse {
 namespace {
@@ -186,7 +187,7 @@ std::string field_label(const FieldPlace& place, const ScalarField& field) {
 
 std::size_t snapshot_at(const ResultsReader& results, const std::optional<double>& time) {
   const auto& times = results.times();
-  if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  expect_snapshots(results);
   if (!time) return times.size() - 1;
   const auto distance = [&](double t) { return std::abs(t - *time); };
   return static_cast<std::size_t>(std::ranges::min_element(times, {}, distance) - times.begin());

@@ -12,6 +12,7 @@
 #include "values/derived_fields.hpp"
 #include "values/fields.hpp"
 #include "values/refusal.hpp"
+#include "values/snapshot_choice.hpp"
 
 namespace suffuse {
 namespace {
@@ -97,7 +98,7 @@ struct SnapshotPair {
 SnapshotPair find_snapshots(const ResultsReader& results, double time,
                             const SampleNames& input_names) {
   const auto& times = results.times();
-  if (times.empty()) throw FileError(results.folder() + ": has no snapshot yet");
+  expect_snapshots(results);
   const double slack = 1e-12 * std::max(std::abs(times.front()), std::abs(times.back()));
   if (!(time >= times.front() - slack && time <= times.back() + slack)) {
     refuse(input_names.command, input_names.time, number_text(time),

@@ -1,12 +1,35 @@
 #include "values/snapshot_choice.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <vector>
 
 #include "common/errors.hpp"
+#include "files/layout.hpp"
 #include "files/number_text.hpp"
 #include "values/fields.hpp"
+#include "values/run_names.hpp"
 
 namespace suffuse {
+
+void expect_lists_of_snapshots(const ResultsReader& results) {
+  namespace fs = std::filesystem;
+  const std::string first = layout::in_folder(results.folder(), layout::snapshot("mesh", 0));
+  // A run that goes on writes its first snapshot before the lists.
+  if (results.status() == "running" || !fs::exists(first)) return;
+  std::vector<std::string> kinds{"mesh", "solid"};
+  if (is_double_point(results)) kinds.emplace_back("liquid");
+  for (const std::string& kind : kinds) {
+    const std::string list = layout::in_folder(results.folder(), layout::series(kind));
+    if (!fs::exists(list)) throw FileError(list + ": cannot be read");
+  }
+}
+
+void expect_snapshots(const ResultsReader& results) {
+  if (!results.times().empty()) return;
+  expect_lists_of_snapshots(results);
+  throw FileError(results.folder() + ": has no snapshot yet");
+}
 
 std::size_t chosen_snapshot(const ResultsReader& results, const std::optional<double>& time,
                             const std::string& command) {

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "common/errors.hpp"
 #include "post/synthetic_results.hpp"
+#include "report/run_numbers.hpp"
+#include "values/fields.hpp"
 
 namespace suffuse {
 namespace sample_test {
@@ -119,6 +123,31 @@ TEST_F(DoublePointSample, FieldsOfPointsAreRefusedWithTheReason) {
               "or \"saturation_state\"; on node: \"concentration\" or \"liquid_velocity\" "
               "(suffuse-post render --on liquid shows it)");
   }
+}
+
+/// What is said of a run that is asked for a snapshot.
+std::string refusal_of(const std::string& folder) {
+  try {
+    snapshot_at(ResultsReader(folder), std::nullopt);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Snapshots, AListThatIsLostIsNamed) {
+  const ScratchFolder scratch;
+  for (const std::string kind : {"mesh", "solid"}) {
+    const std::string folder = scratch / (kind + ".results");
+    write_synthetic_results(folder);
+    const std::string list = std::string(folder).append("/").append(kind).append(".hdf.series");
+    ASSERT_TRUE(std::filesystem::remove(list));
+    EXPECT_EQ(refusal_of(folder), list + ": cannot be read");
+    EXPECT_THROW(run_numbers(ResultsReader(folder)), FileError);
+  }
+  const std::string fresh = scratch / "new.results";
+  { const ResultsWriter<2> writer(fresh, testing::unit_square_case()); }
+  EXPECT_EQ(refusal_of(fresh), fresh + ": has no snapshot yet");
 }
 
 }  // namespace sample_test
