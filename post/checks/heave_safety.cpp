@@ -169,15 +169,6 @@ std::string number_cell(const char* format, double value, int width) {
   return padded(text, width);
 }
 
-std::string motion_text(const Table& history, const TimeUnit& unit) {
-  const auto now = [&](const char* name) {
-    return number_cell("%.4g", history.column(name).back(), 0);
-  };
-  return "at t = " + time_digits(history.column("t").back(), unit) + " " + unit.name +
-         " the largest settlement of the soil is " + now("settlement_max") +
-         " m, its largest displacement " + now("displacement_max") + " m\n";
-}
-
 /// The cells behind the name of a part.
 std::string part_cells(const PartSafety& part, const TimeUnit& unit, int place_width) {
   std::string text;
@@ -256,6 +247,15 @@ std::vector<PartSafety> safety_of(const ResultsReader& results) {
   return with_mesh(results, [&](const auto& mesh) { return safety_in(results, mesh); });
 }
 
+std::string motion_text(const Table& history, const TimeUnit& unit) {
+  const auto now = [&](const char* name) {
+    return number_cell("%.4g", history.column(name).back(), 0);
+  };
+  return "t = " + time_digits(history.column("t").back(), unit) + " " + unit.name +
+         " the largest settlement of the soil is " + now("settlement_max") +
+         " m, its largest displacement " + now("displacement_max") + " m";
+}
+
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts,
                         const TextStyle& style) {
   const auto& times = results.times();
@@ -276,7 +276,7 @@ std::string safety_text(const ResultsReader& results, const std::vector<PartSafe
               : ": from then on results of a skeleton that stays in place mean nothing, unless the "
                 "place lies deep in the soil\n";
   }
-  if (moves) text += motion_text(results.history(), unit);
+  if (moves) text += "at " + motion_text(results.history(), unit) + "\n";
   return text;
 }
 

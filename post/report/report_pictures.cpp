@@ -46,6 +46,7 @@ struct CurveColumn {
   std::string table;
   std::string column;
   std::string title;
+  bool is_motion = false;  ///< of soil that moves
 };
 
 const std::vector<CurveColumn>& curve_columns() {
@@ -57,12 +58,16 @@ const std::vector<CurveColumn>& curve_columns() {
        "fines"},
       {"boundaries", "discharge", "Discharge through the boundaries, out minus in"},
       {"history", "turbidity_out", "Turbidity of the liquid that leaves"},
-      {"history", "conductivity_ratio", "Conductivity of the soil over that at the start"}};
+      {"history", "conductivity_ratio", "Conductivity of the soil over that at the start"},
+      {"history", "settlement_max", "Largest settlement of the soil", true},
+      {"history", "displacement_max", "Largest displacement of the soil", true}};
   return columns;
 }
 
-/// Whether a run has the column, and rows enough for curves.
+/// Whether a run has the column, and rows enough for curves. Soil that stays has no
+/// motion.
 bool has_curve(const ResultsReader& run, const CurveColumn& column) {
+  if (column.is_motion && !run.scene().scene.moves()) return false;
   const auto is_curve = [&](const Table& table) {
     return table.has(column.column) && table.rows() > 1;
   };

@@ -26,7 +26,8 @@ bool has_gradients(const ResultsReader& run) {
 }
 
 std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
-  if (!numbers.fines_out) return "";
+  const bool has_fines = std::ranges::any_of(run.scene().scene.soils, &Soil::exchanges);
+  if (!numbers.fines_out || (!has_fines && *numbers.fines_out == 0.0)) return "";
   std::string text = short_text(*numbers.fines_out) + " kg of fines";
   if (run.dimension() == 2) text += " per metre of thickness";
   text += " left the model";
@@ -117,6 +118,9 @@ std::string summary_text(const ResultsReader& run, const RunNumbers& numbers) {
                      std::to_string(info.elements) +
                      " elements, computed until t = " + time_text(numbers.end, unit) + " in " +
                      std::to_string(info.steps) + " steps. ";
+  if (run.scene().scene.moves() && numbers.rows > 0) {
+    text += "At " + motion_text(run.history(), unit) + ". ";
+  }
   text += fines_text(run, numbers) + safety_sentence(run, numbers, unit);
   if (numbers.worst) {
     text += "The largest residual of the mass balance is " +

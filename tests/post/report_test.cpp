@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "files/number_text.hpp"
+#include "post/run_programs.hpp"
 #include "post/synthetic_results.hpp"
 #include "report/html.hpp"
 #include "report/report_pictures.hpp"
@@ -263,6 +264,35 @@ TEST(ReportOfRuns, OfARunThatHasNothingYet) {
   EXPECT_NE(page.find("Status: failed, the &lt;first&gt; step failed."), std::string::npos);
   EXPECT_NE(page.find("The ledger has no rows yet."), std::string::npos);
   EXPECT_NE(page.find("The run has no snapshot yet."), std::string::npos);
+}
+
+/// The highest points of a column settle by some 7 mm under 30 kPa.
+TEST(ReportOfRuns, OfSoilThatMovesHasItsSettlement) {
+  const ScratchFolder scratch;
+  const ResultsReader run = testing::run_programs(
+      scratch, "settles",
+      "formulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
+      "geometry = { shape = \"column\", width = 0.5, height = 1.0 }\nmesh.size = 0.5\n"
+      "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
+      "initial.water_level = 1.0\ntime.end = 1e6\noutput.every = 5e5\n"
+      "[soil.specimen]\nporosity = 0.5\nskeleton_fraction = 0.5\ngrain_density = 2700.0\n"
+      "conductivity = 1e-4\nskeleton = { law = \"elastic\", young = 3e6, poisson = 0.3 }\n"
+      "[[boundary]]\non = \"top\"\nhead = 1.0\ntraction = [[0, 0, 0], [1, 0, -30e3]]\n"
+      "[[boundary]]\non = \"bottom\"\nfix = \"both\"\n"
+      "[[boundary]]\non = \"left\"\nfix = \"normal\"\n"
+      "[[boundary]]\non = \"right\"\nfix = \"normal\"\n");
+  const std::string page = report_html({run});
+  const double settlement = run.history().column("settlement_max").back();
+  EXPECT_NEAR(settlement, 7e-3, 5e-4);
+  char number[32];
+  std::snprintf(number, sizeof number, "%.4g", settlement);
+  EXPECT_NE(page.find(std::string(" the largest settlement of the soil is ") + number +
+                      " m, its largest displacement "),
+            std::string::npos);
+  EXPECT_EQ(page.find("of fines per metre"), std::string::npos);
+  for (const std::string name : {"settlement", "displacement"}) {
+    EXPECT_EQ(matches(page, "Largest " + name + " of the soil against time").size(), 1U) << name;
+  }
 }
 
 TEST(ReportPictures, SnapshotsAreEvenlyInTime) {
