@@ -240,7 +240,7 @@ std::string check_table(const CheckReport& report, int dimension,
                                    row.unit,
                                    row.factor ? number_text(*row.factor) : ""};
     for (int d = 0; d < dimension; ++d) {
-      cells.push_back(row.place.empty() ? "" : number_text(row.place[d]));
+      cells.push_back(row.place.empty() ? "" : number_text(clean_coordinate(row.place[d])));
     }
     cells.push_back(row.note);
     cells.push_back(exact_cell(row.first_below / seconds));

@@ -11,7 +11,8 @@
 namespace suffuse {
 namespace {
 
-/// Share of the hydrostatic pressure by which pressures exceed it as a matter of round-off.
+/// Share of the hydrostatic pressure that is round-off: of what pressures exceed it by, and of the
+/// effect of a column.
 constexpr double negligible_excess = 1e-6;
 
 /// The fields of a snapshot that load the columns.
@@ -149,7 +150,7 @@ class ColumnChecks {
   void add(const std::string& mechanism, const std::string& clause, const std::string& unit,
            const Utilisation& found, const ColumnLoads& column, const ColumnState& state,
            const GroundPlace<Dim>& place) {
-    if (!(found.effect > 0.0)) return;
+    if (!(found.effect > negligible_excess * column.depth * unit_weight_)) return;
     const std::string where =
         place.boundary.empty() ? "ground of " + lines_.region_of(place.element) : place.boundary;
     std::optional<CheckRow>& worst = worst_[{mechanism, where}];

@@ -1,6 +1,7 @@
 #include "tables/table_output.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "common/closest_name.hpp"
@@ -73,9 +74,15 @@ std::string shown_unit(const std::string& unit, int dimension) {
   return dimension == 2 && is_extensive(unit) ? unit + "/m" : unit;
 }
 
+double clean_coordinate(double x) {
+  return std::abs(x) < 1e-12 ? 0.0 : x;
+}
+
 std::string place_text(const std::vector<double>& place) {
   std::string text;
-  for (const double x : place) text += (text.empty() ? "(" : ", ") + short_text(x);
+  for (const double x : place) {
+    text += (text.empty() ? "(" : ", ") + short_text(clean_coordinate(x));
+  }
   return text + ")";
 }
 

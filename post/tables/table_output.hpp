@@ -32,6 +32,8 @@ struct TextStyle {
 /// A line about an exceeded limit.
 std::string alarm_line(const std::string& line, const TextStyle& style);
 
+/// A coordinate, m; 0 where it is round-off, which no drawing has: below 1e-12 m.
+double clean_coordinate(double x);
 /// A place as text, m: "(1.5, 0.25)".
 std::string place_text(const std::vector<double>& place);
 

@@ -82,5 +82,18 @@ TEST(ColumnChecks, WaterThatStaysBelowTheGroundHasNoHeave) {
   EXPECT_THROW(row_of(report, "hyd-stresses"), std::runtime_error);
 }
 
+/// Water that stands still up to round-off: the pressure exceeds the hydrostatic one by 1e-9 m of
+/// water.
+TEST(ColumnChecks, RoundOffIsNoForce) {
+  const ScratchFolder scratch;
+  const ResultsReader results =
+      run_programs(scratch, "still",
+                   top("geometry.file = \"still.geo\"\nmesh.size = 0.1\n") + soil("sand", 1e-4) +
+                       soil("clay", 1e-5) + heads(2.0 + 1e-9, 2.0),
+                   two_layers());
+  EXPECT_THROW(row_of(check_run(results, results.scene().scene.check), "hyd-forces"),
+               std::runtime_error);
+}
+
 }  // namespace column_checks_test
 }  // namespace suffuse

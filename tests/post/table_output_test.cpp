@@ -61,6 +61,11 @@ TEST(TableOutput, ColumnsHaveWords) {
   EXPECT_EQ(field_words("fines_left"), "fines left");
 }
 
+TEST(TableOutput, CoordinatesOfRoundOffAreZero) {
+  EXPECT_EQ(place_text({20.0, -5.551e-17}), "(20, 0)");
+  EXPECT_EQ(place_text({1.065e-15, 1e-6}), "(0, 1e-06)");
+}
+
 TEST(TableOutput, RefusesAnUnknownUnitOfTime) {
   try {
     parse_time_unit("days", "suffuse-post history");
