@@ -37,6 +37,7 @@ void ledger(const LedgerOptions& o) {
     throw InputError(InputProblem{"suffuse-post ledger", "--tolerance", number_text(o.tolerance),
                                   "a number that is not negative"});
   }
+  parse_time_unit(o.table.time_unit, "suffuse-post ledger");
   const ResultsReader results(o.results);
   const auto found = balances(results);
   if (o.table.path != "-") std::cout << balance_text(results, found);
@@ -56,6 +57,7 @@ void declare_history(CLI::App& command, TableOptions& o) {
 }
 
 void history(const TableOptions& o) {
+  parse_time_unit(o.table.time_unit, "suffuse-post history");
   const ResultsReader results(o.results);
   if (o.table.path != "-") std::cout << history_text(results);
   if (!o.table.path.empty()) write_csv(results, o.table, results.history());
@@ -67,10 +69,10 @@ void declare_boundaries(CLI::App& command, TableOptions& o) {
 }
 
 void boundaries(const TableOptions& o) {
+  const TimeUnit unit = parse_time_unit(o.table.time_unit, "suffuse-post boundaries");
   const ResultsReader results(o.results);
   if (o.table.path != "-") std::cout << boundaries_text(results);
   if (o.table.path.empty()) return;
-  const TimeUnit unit = parse_time_unit(o.table.time_unit, "suffuse-post boundaries");
   refuse_inside(results, "--csv", o.table.path);
   write_tables(o.table.path, "boundary",
                with_units(results.boundaries(), results.dimension(), unit));

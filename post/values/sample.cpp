@@ -255,6 +255,7 @@ SampleLine parse_line(const std::string& text, const std::string& command,
   if (ends.size() != 2 || !from || !to || from->size() != to->size()) {
     refuse(command, option, "\"" + text + "\"", "x0,y0:x1,y1 or x0,y0,z0:x1,y1,z1 in metres");
   }
+  if (*from == *to) refuse(command, option, "\"" + text + "\"", "two ends that differ");
   return {*from, *to};
 }
 

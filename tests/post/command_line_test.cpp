@@ -211,6 +211,12 @@ TEST_F(PostCommand, HistoryPrintsAndCopies) {
   EXPECT_NE(outcome.out.find("porosity_mean"), std::string::npos);
   expect_equal(read_table(scratch / "h.csv"), read_table(run + "/history.csv"));
   // Only the table is written to standard output.
+  for (const std::string command : {"ledger", "history", "boundaries"}) {
+    expect_refusal(command + " " + run + " --time-unit fortnight", 2,
+                   "suffuse-post " + command +
+                       ": --time-unit: got \"fortnight\"; expected \"s\", \"min\", \"h\", \"d\" "
+                       "or \"a\"");
+  }
   const Outcome shown = post("history " + run + " --csv - --time-unit min");
   EXPECT_EQ(shown.out.find("t [min],dt [s],porosity_mean [-],"), 0U) << shown.out;
 }
@@ -426,6 +432,8 @@ TEST_F(PostCommand, ExportNamesADamagedSnapshotAndWritesNothing) {
 }
 
 TEST_F(PostCommand, BadCount) {
+  expect_refusal(sample_start + "--time 1 --line 0,0:0,0 --count 3 --fields porosity", 2,
+                 "suffuse-post sample: --line: got \"0,0:0,0\"; expected two ends that differ");
   expect_refusal(sample_start + "--time 1 --line 0,0:1,1 --count 1 --fields porosity", 2,
                  "suffuse-post sample: --count: got 1; expected at least 2, the ends of the line");
   expect_refusal(sample_start + "--time 1 --line 0,0:1,1 --count 2000000000 --fields porosity", 2,
