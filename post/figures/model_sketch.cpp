@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "case/free_space.hpp"
@@ -65,12 +66,34 @@ std::string condition_text(const BoundaryCondition& b) {
   return text;
 }
 
-/// What the scene says of a named boundary; empty where it is impervious.
+std::string traction_text(const VectorFunction& traction) {
+  std::string text;
+  for (std::size_t d = 0; d < traction.given; ++d) {
+    std::vector<std::pair<double, double>> kilopascals;
+    for (const auto& [t, value] : traction.knots) kilopascals.emplace_back(t, value.at(d) / 1000.0);
+    text += (d == 0 ? "traction " : ", ") + range_text(TimeFunction(kilopascals));
+  }
+  return text + " kPa";
+}
+
+/// What holds or loads soil that moves at a named boundary; empty if nothing does.
+std::string support_text(const Scene& scene, const std::string& name) {
+  const auto condition = std::ranges::find(scene.boundaries, name, &BoundaryCondition::on);
+  if (condition == scene.boundaries.end() || !scene.moves()) return "";
+  std::string text;
+  if (condition->fix == Fixing::both) text = "held";
+  if (condition->fix == Fixing::normal) text = "held along its normal";
+  if (!condition->traction) return text;
+  return text + (text.empty() ? "" : ", ") + traction_text(*condition->traction);
+}
+
+/// What the scene says of the water at a named boundary; empty where it is impervious.
 std::string text_of(const Scene& scene, const std::string& name) {
   const auto condition = std::ranges::find(scene.boundaries, name, &BoundaryCondition::on);
   if (condition != scene.boundaries.end()) return condition_text(*condition);
   const auto wall = std::ranges::find(scene.walls, name, &Wall::on);
-  if (wall == scene.walls.end() || wall->conductance == 0.0) return "";
+  if (wall == scene.walls.end()) return "";
+  if (wall->conductance == 0.0) return "impervious wall";
   return "wall, conductance " + number_text(wall->conductance) + " 1/s";
 }
 
@@ -203,24 +226,28 @@ std::vector<SketchedBoundary<2>> sketched_boundaries(const ResultsReader& run) {
 template <int Dim>
 std::vector<SketchedBoundary<Dim>> sketched_boundaries(const Mesh<Dim>& mesh, const Scene& scene) {
   std::vector<SketchedBoundary<Dim>> found;
-  SketchedBoundary<Dim> impervious;
-  const auto add_impervious = [&](const std::string& name,
+  // By their support; those without one are last.
+  std::map<std::string, SketchedBoundary<Dim>, std::greater<>> impervious;
+  const auto add_impervious = [&](const std::string& name, const std::string& support,
                                   const std::vector<std::array<int, Dim>>& faces) {
-    impervious.label += (impervious.label.empty() ? "" : ", ") + name;
-    impervious.faces.insert(impervious.faces.end(), faces.begin(), faces.end());
+    auto& [label, all] = impervious[support];
+    label += (label.empty() ? "" : ", ") + name;
+    all.insert(all.end(), faces.begin(), faces.end());
   };
   for (const auto& boundary : mesh.boundaries) {
     const std::string text = text_of(scene, boundary.name);
+    const std::string support = support_text(scene, boundary.name);
     if (text.empty()) {
-      add_impervious(boundary.name, boundary.faces);
+      add_impervious(boundary.name, support, boundary.faces);
     } else {
-      found.push_back({boundary.name + ": " + text, boundary.faces});
+      found.push_back(
+          {boundary.name + ": " + text + (support.empty() ? "" : ", ") + support, boundary.faces});
     }
   }
-  if (const auto rest = unnamed_faces(mesh); !rest.empty()) add_impervious("unnamed", rest);
-  if (!impervious.faces.empty()) {
-    impervious.label += ": impervious";
-    found.push_back(impervious);
+  if (const auto rest = unnamed_faces(mesh); !rest.empty()) add_impervious("unnamed", "", rest);
+  for (auto& [support, boundary] : impervious) {
+    boundary.label += ": impervious" + (support.empty() ? "" : ", " + support);
+    found.push_back(std::move(boundary));
   }
   return found;
 }

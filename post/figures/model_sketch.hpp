@@ -17,8 +17,8 @@ struct SketchedBoundary {
   std::vector<std::array<int, Dim>> faces;
 };
 
-/// The named boundaries in the order of the mesh. All impervious ones are joined into one, which
-/// comes last; outer faces without a name belong to it as "unnamed".
+/// The named boundaries in the order of the mesh. Impervious ones come last, joined where the soil
+/// is held and loaded alike; outer faces without a name are "unnamed". Walls are not joined.
 std::vector<SketchedBoundary<2>> sketched_boundaries(const ResultsReader& run);
 template <int Dim>
 std::vector<SketchedBoundary<Dim>> sketched_boundaries(const Mesh<Dim>& mesh, const Scene& scene);

@@ -80,6 +80,43 @@ TEST(ModelSketch, NamesEveryConditionOfSeepage) {
   EXPECT_EQ(label([](BoundaryCondition& b) { b.rate = -2e-4; }), "top: rate -2e-04 m3/s");
 }
 
+TEST(ModelSketch, NamesWhatHoldsAndLoadsSoilThatMoves) {
+  const Case<2> c = testing::unit_square_case();
+  Scene scene = testing::open_above_case(0.2).document.scene;
+  ASSERT_TRUE(scene.moves());
+  BoundaryCondition top;
+  top.on = "top";
+  top.head = 6.0;
+  top.traction = VectorFunction{{{0.0, {0.0, 0.0, 0.0}}, {1.0, {0.0, -40e3, 0.0}}}, 2};
+  BoundaryCondition bottom;
+  bottom.on = "bottom";
+  bottom.fix = Fixing::both;
+  scene.boundaries = {top, bottom};
+  const auto labels = [&] {
+    std::vector<std::string> found;
+    for (const auto& boundary : sketched_boundaries(c.mesh, scene)) found.push_back(boundary.label);
+    return found;
+  };
+  EXPECT_EQ(labels(),
+            (std::vector<std::string>{"top: head 6 m, traction 0, -40 to 0 kPa",
+                                      "bottom: impervious, held", "unnamed: impervious"}));
+  scene.boundaries[1].fix = Fixing::normal;
+  EXPECT_EQ(labels()[1], "bottom: impervious, held along its normal");
+  // Conditions on the soil say nothing where it stays.
+  scene.soils.front().skeleton = {};
+  EXPECT_EQ(labels()[1], "bottom, unnamed: impervious");
+}
+
+TEST(ModelSketch, AWallIsNoOuterEdge) {
+  const Case<2> c = testing::unit_square_case();
+  Scene scene;
+  scene.walls = {{"bottom", 0.0}};
+  const auto boundaries = sketched_boundaries(c.mesh, scene);
+  ASSERT_EQ(boundaries.size(), 2U);
+  EXPECT_EQ(boundaries[0].label, "bottom: impervious wall");
+  EXPECT_EQ(boundaries[1].label, "top, unnamed: impervious");
+}
+
 TEST(ModelSketch, ARegionWithoutSoilHoldsWaterOrAir) {
   const auto label = [](double water_level) {
     const Case<2> c = testing::open_above_case(water_level);
