@@ -13,7 +13,6 @@
 #include "files/number_text.hpp"
 #include "files/table_files.hpp"
 #include "files/text_output.hpp"
-#include "physics/head.hpp"
 #include "tables/table_output.hpp"
 #include "values/snapshot_choice.hpp"
 
@@ -57,13 +56,9 @@ class Gaps {
     std::string text = "concentrated leaks through cracks, contact erosion along joints";
     if (!has("erosion")) text += ", suffusion (no soil erodes)";
     if (!has("internal-stability")) text += ", internal stability (key soil.NAME.gradation)";
-    if (!has_gravity(scene_.gravity)) {
-      text += ", heave and uplift (without gravity no direction is up, as in a plan)";
-    } else {
-      if (!has("heave")) text += ", heave (water rises at no boundary that it leaves through)";
-      if (!has("hyd-forces")) text += ", " + heave_by_forces();
-      if (!has("uplift")) text += ", " + uplift();
-    }
+    if (!has("heave")) text += ", heave (water rises at no boundary that it leaves through)";
+    if (!has("hyd-forces")) text += ", " + heave_by_forces();
+    if (!has("uplift")) text += ", " + uplift();
     if (!has("blanket")) text += ", blanket theory (key check.blanket.aquifer)";
     return text;
   }

@@ -39,7 +39,8 @@ class ColumnChecks {
         scene_(scene),
         settings_(settings),
         lines_(mesh, scene),
-        unit_weight_(unit_weight(scene.liquid.density, scene.gravity)) {}
+        unit_weight_(unit_weight(scene.liquid.density, scene.gravity)),
+        has_gravity_(has_gravity(scene.gravity)) {}
 
   void look_at(const ColumnState& state) {
     for (const GroundPlace<Dim>& place : lines_.ground()) {
@@ -47,7 +48,9 @@ class ColumnChecks {
       const bool is_exit = place.lets_water_out && is_saturated(state, place.element) &&
                            flux_through(state, place) > 0.0;
       const bool is_cover = lines_.region_of(place.element) == settings_.uplift.cover;
-      if (is_cover || place.lets_water_out) look_below(state, place, is_exit, is_cover);
+      // Without gravity pressures below ground that no water leaves have no datum.
+      const bool is_open = place.lets_water_out && has_gravity_;
+      if (is_exit || is_cover || is_open) look_below(state, place, is_exit, is_cover);
     }
   }
 
@@ -78,10 +81,12 @@ class ColumnChecks {
     return pressure;
   }
 
-  /// Pressure of the free water on the ground, which presses on soil and pores alike.
+  /// Pressure of the free water on the ground, which presses on soil and pores alike; without
+  /// gravity its datum.
   [[nodiscard]] double pressure_on(const ColumnState& state, const GroundPlace<Dim>& place) const {
     if (!place.bears_water) return 0.0;
-    return std::max(0.0, pressure_at(state, place.element, place.weights));
+    const double pressure = pressure_at(state, place.element, place.weights);
+    return has_gravity_ ? std::max(0.0, pressure) : pressure;
   }
 
   /// Pressure at the base of a segment. Both sides of a wall have one of their own: a column lifts
@@ -107,7 +112,7 @@ class ColumnChecks {
   /// lifts tight or dry ground too, through which no water leaves.
   [[nodiscard]] bool is_artesian(const ColumnState& state, const GroundPlace<Dim>& place,
                                  const ColumnLoads& column) const {
-    if (!place.lets_water_out) return false;
+    if (!place.lets_water_out || !has_gravity_) return false;
     const double at_ground = std::max(0.0, pressure_at(state, place.element, place.weights));
     const double hydrostatic = (1.0 + negligible_excess) * column.depth * unit_weight_;
     return column.pressure + pressure_on(state, place) > at_ground + hydrostatic;
@@ -124,7 +129,9 @@ class ColumnChecks {
       column.depth += segment.length;
       column.total_stress += segment.length * bulk_weight(state, segment.element);
       if (is_saturated(state, segment.element)) hydrostatic += segment.length * unit_weight_;
-      column.pressure = std::max(0.0, pressure_below(state, line, i) - on_ground);
+      const double stored = pressure_below(state, line, i) - on_ground;
+      // Without gravity pressures are those above the hydrostatic one, from any datum.
+      column.pressure = has_gravity_ ? std::max(0.0, stored) : stored + hydrostatic;
       column.seepage_force = column.pressure - hydrostatic;
       column.weight = column.total_stress - hydrostatic;
       if (is_exit || is_artesian(state, place, column)) {
@@ -174,6 +181,7 @@ class ColumnChecks {
   const CheckSettings& settings_;
   VerticalLines<Dim> lines_;
   double unit_weight_;
+  bool has_gravity_;
   std::map<std::pair<std::string, std::string>, std::optional<CheckRow>> worst_;
 };
 
@@ -181,7 +189,7 @@ class ColumnChecks {
 
 std::vector<CheckRow> column_checks(const ResultsReader& results, const CheckSettings& settings) {
   const Scene& scene = results.scene().scene;
-  if (scene.moves() || !has_gravity(scene.gravity)) return {};
+  if (scene.moves()) return {};
   return with_mesh(results, [&]<int Dim>(const Mesh<Dim>& mesh) {
     ColumnChecks<Dim> checks(mesh, scene, settings);
     for (std::size_t i = 0; i < results.times().size(); ++i) {

@@ -185,27 +185,6 @@ std::string part_cells(const PartSafety& part, const TimeUnit& unit, int place_w
   return text;
 }
 
-/// The safeties as an aligned table.
-std::string parts_text(const std::vector<PartSafety>& parts, bool is_plane,
-                       const TextStyle& style) {
-  std::size_t width = 0;
-  for (const PartSafety& part : parts) width = std::max(width, part.name.size());
-  const TimeUnit& unit = style.time;
-  const int place_width = is_plane ? 20 : 30;
-  std::string text =
-      "least safety i_cr / i against heave, i: hydraulic gradient upwards, i_cr = (1 - n) "
-      "(rho_s / rho_w - 1)\n" +
-      std::string(width, ' ') + padded("safety", 10) + padded("i", 10) + padded("i_cr", 10) +
-      padded("t (" + unit.name + ")", 12) + padded("at (m)", place_width) +
-      padded("discharge now (" + std::string(is_plane ? "m2/s" : "m3/s") + ")", 23) + "\n";
-  for (const PartSafety& part : parts) {
-    const std::string line = part.name + std::string(width - part.name.size(), ' ') +
-                             part_cells(part, unit, place_width);
-    text += (part.first_below ? alarm_line(line, style) : line) + "\n";
-  }
-  return text;
-}
-
 template <int Dim>
 std::vector<PartSafety> safety_in(const ResultsReader& results, const Mesh<Dim>& mesh) {
   std::vector<Boundary> boundaries = boundaries_of(results, mesh);
@@ -243,7 +222,6 @@ std::vector<PartSafety> safety_in(const ResultsReader& results, const Mesh<Dim>&
 }  // namespace
 
 std::vector<PartSafety> safety_of(const ResultsReader& results) {
-  if (!has_gravity(results.scene().scene.gravity)) return {};
   return with_mesh(results, [&](const auto& mesh) { return safety_in(results, mesh); });
 }
 
@@ -258,24 +236,37 @@ std::string motion_text(const Table& history, const TimeUnit& unit) {
 
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts,
                         const TextStyle& style) {
+  std::size_t width = 0;
+  for (const PartSafety& part : parts) width = std::max(width, part.name.size());
   const auto& times = results.times();
   const TimeUnit& unit = style.time;
+  const bool is_plane = results.dimension() == 2;
+  const int place_width = is_plane ? 20 : 30;
   std::string text =
       results.folder() + ": " + results.status() + ", " + std::to_string(times.size()) +
-      " snapshots until t = " + number_text(times.back() / unit.seconds) + " " + unit.name + "\n";
-  text += parts.empty() ? no_heave_without_gravity + "\n"
-                        : parts_text(parts, results.dimension() == 2, style);
+      " snapshots until t = " + number_text(times.back() / unit.seconds) + " " + unit.name +
+      "\nleast safety i_cr / i against heave, i: hydraulic gradient upwards, i_cr = (1 - n) "
+      "(rho_s / rho_w - 1)\n" +
+      std::string(width, ' ') + padded("safety", 10) + padded("i", 10) + padded("i_cr", 10) +
+      padded("t (" + unit.name + ")", 12) + padded("at (m)", place_width) +
+      padded("discharge now (" + std::string(is_plane ? "m2/s" : "m3/s") + ")", 23) + "\n";
+  for (const PartSafety& part : parts) {
+    const std::string line = part.name + std::string(width - part.name.size(), ' ') +
+                             part_cells(part, unit, place_width);
+    text += (part.first_below ? alarm_line(line, style) : line) + "\n";
+  }
   const bool moves = results.scene().scene.moves();
-  if (!parts.empty() && parts.front().first_below) {
+  if (const auto& first = parts.front().first_below) {
     text +=
         "a safety below 1 means that water lifts soil that nothing holds down, for the first "
         "time at t = " +
-        time_digits(*parts.front().first_below, unit) + " " + unit.name;
+        time_digits(*first, unit) + " " + unit.name;
     text +=
         moves ? "\n"
               : ": from then on results of a skeleton that stays in place mean nothing, unless the "
                 "place lies deep in the soil\n";
   }
+  if (!has_gravity(results.scene().scene.gravity)) text += without_gravity + "\n";
   if (moves) text += "at " + motion_text(results.history(), unit) + "\n";
   return text;
 }

@@ -36,12 +36,12 @@ struct PartSafety {
   std::optional<double> first_below{};
 };
 
-/// Why there are no safeties.
-inline const std::string no_heave_without_gravity =
-    "heave and uplift are not looked at: without gravity no direction is up, as in a plan";
+/// What a reader of the safeties must know where there is no gravity.
+inline const std::string without_gravity =
+    "without gravity the last axis counts as up: in a plan, heave and uplift mean nothing";
 
 /// All soil first, then the boundaries of the scene, then the regions of free water into which
-/// water rises; empty without gravity. Throws FileError.
+/// water rises. Throws FileError.
 std::vector<PartSafety> safety_of(const ResultsReader& results);
 
 /// The safeties as an aligned table, with an explanation.

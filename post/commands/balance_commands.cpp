@@ -120,11 +120,6 @@ void check(const CheckOptions& o) {
     std::cerr << "suffuse-post: warning: not looked at: " << sentence << '\n';
   }
   const auto parts = safety_of(results);
-  if (o.least && parts.empty()) {
-    throw InputError(InputProblem{"suffuse-post check", "--least",
-                                  number_text(*o.least) + " for a run without gravity",
-                                  "gravity: without it no direction is up"});
-  }
   if (o.csv != "-") {
     const TextStyle style{unit.value_or(TimeUnit{}), shows_colors()};
     std::cout << safety_text(results, parts, style) << '\n' << check_text(report, style);

@@ -13,7 +13,6 @@
 #include "figures/run_curves.hpp"
 #include "figures/seepage_map.hpp"
 #include "files/number_text.hpp"
-#include "physics/head.hpp"
 #include "report/html.hpp"
 #include "values/derived_fields.hpp"
 #include "values/dry_mass.hpp"
@@ -332,7 +331,6 @@ std::string fields_html(const ResultsReader& run, const ReportProgress& progress
   tell_of("head");
   std::string films = head_html(run, snapshots, folder);
   for (const ShownField& field : fields) {
-    if (field.name == "safety" && !has_gravity(run.scene().scene.gravity)) continue;
     tell_of((field.change ? "the change of " : "") + field_words(field.name));
     films += field_html(run, field, snapshots, folder);
   }

@@ -39,10 +39,7 @@ std::string fines_text(const ResultsReader& run, const RunNumbers& numbers) {
   return text + ". ";
 }
 
-std::string safety_sentence(const ResultsReader& run, const RunNumbers& numbers,
-                            const TimeUnit& unit) {
-  const Scene& scene = run.scene().scene;
-  if (!has_gravity(scene.gravity)) return capitalized(no_heave_without_gravity) + ". ";
+std::string safety_sentence(const RunNumbers& numbers, const Scene& scene, const TimeUnit& unit) {
   if (numbers.safety.empty()) return "";
   const auto place = [&](const LeastSafety& least) {
     return short_text(least.safety) + ", at " + place_text(least.place) +
@@ -57,7 +54,7 @@ std::string safety_sentence(const ResultsReader& run, const RunNumbers& numbers,
   const auto& anywhere = numbers.safety.front().least;
   if (anywhere && anywhere->safety < 1.0) {
     text +=
-        "In all soil it is " + place(*anywhere) +
+        "In all soil the least safety is " + place(*anywhere) +
         ": below 1 water lifts soil that nothing holds down. It is below 1 for the first time "
         "at t = " +
         time_text(numbers.safety.front().first_below.value_or(anywhere->time), unit) +
@@ -65,7 +62,7 @@ std::string safety_sentence(const ResultsReader& run, const RunNumbers& numbers,
                        : ": from then on results of a skeleton that stays in place mean nothing, "
                          "unless the place lies deep in the soil. ");
   }
-  return text;
+  return text + (has_gravity(scene.gravity) ? "" : capitalized(without_gravity) + ". ");
 }
 
 /// A report has no checks where the run has no gradients yet.
@@ -121,7 +118,7 @@ std::string summary_text(const ResultsReader& run, const RunNumbers& numbers) {
   if (run.scene().scene.moves() && numbers.rows > 0) {
     text += "At " + motion_text(run.history(), unit) + ". ";
   }
-  text += fines_text(run, numbers) + safety_sentence(run, numbers, unit);
+  text += fines_text(run, numbers) + safety_sentence(numbers, run.scene().scene, unit);
   if (numbers.worst) {
     text += "The largest residual of the mass balance is " +
             short_text(numbers.worst->worst_residual) + ", of " + numbers.worst->constituent +

@@ -5,11 +5,9 @@
 #include <filesystem>
 
 #include "files/number_text.hpp"
-#include "physics/head.hpp"
 #include "report/html.hpp"
 #include "report/report_pictures.hpp"
 #include "tables/discharge_text.hpp"
-#include "values/name_words.hpp"
 #include "values/outside_water.hpp"
 #include "values/run_names.hpp"
 
@@ -122,9 +120,6 @@ std::string history_html(const ResultsReader& run) {
 }
 
 std::string safety_html(const ResultsReader& run, const RunNumbers& numbers) {
-  if (!has_gravity(run.scene().scene.gravity)) {
-    return html::element("p", capitalized(no_heave_without_gravity) + ".");
-  }
   if (numbers.safety.empty()) {
     return html::element("p", "These results have no hydraulic gradient.");
   }

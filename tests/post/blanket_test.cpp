@@ -194,19 +194,6 @@ TEST(Blanket, GravityThatIsTiltedIsRefused) {
             1U);
 }
 
-/// A plan has no ground.
-TEST(Blanket, IsRefusedWithoutGravity) {
-  const ScratchFolder scratch;
-  std::string scene = levee_scene(blanket());
-  scene.replace(scene.find("[0.0, -9.81]"), 12, "[0.0, 0.0]");
-  const ResultsReader results = run_programs(scratch, "levee", scene, levee_ground());
-  const CheckReport report = check_run(results, results.scene().scene.check);
-  ASSERT_EQ(report.refused.size(), 1U);
-  EXPECT_NE(report.refused[0].find("gravity: got [0, 0] m/s2; expected gravity along y"),
-            std::string::npos)
-      << report.refused[0];
-}
-
 /// At 45 degrees a level flux needs (1/k_1 + 1/k_2)/2 of it as its gradient, and an upright
 /// gradient drives (k_1 + k_2)/2 of it upwards.
 TEST(Blanket, ObliqueBeddingHasBothMeans) {

@@ -24,9 +24,8 @@ constexpr double critical = 0.7 * 1.7;
 /// t = 10 s; in element 7 it sinks.
 class DerivedFields : public ::testing::Test {
  protected:
-  explicit DerivedFields(const std::string& gravity = {}) {
-    Case<2> c = unit_square_case();
-    c.document = parse_scene(gravity + c.document.text, "synthetic.toml");
+  DerivedFields() {
+    const Case<2> c = unit_square_case();
     ResultsWriter<2> writer(scratch_ / "run.results", c);
     testing::write_rows(writer, 10.0, [](double) { return porosity; });
     for (const double t : {0.0, 10.0}) writer.write_snapshot(snapshot(c, t));
@@ -188,22 +187,7 @@ TEST(ChangeOfMovingPoints, IsRefusedWithoutTheirNumbersOrWithOthers) {
   EXPECT_EQ(refusal("new.results"), expected + "a point was not there at the start");
 }
 
-class DerivedFieldsUnderGravity : public DerivedFields {
- protected:
-  DerivedFieldsUnderGravity()
-      : DerivedFields("gravity = [0.0, -9.81]\ninitial.water_level = 1.0\n") {}
-};
-
-/// No direction is up: the model may be a plan.
-TEST_F(DerivedFields, WithoutGravityThereIsNoSafety) {
-  const auto parts = safety_of(results());
-  EXPECT_TRUE(parts.empty());
-  const std::string text = safety_text(results(), parts);
-  EXPECT_NE(text.find(no_heave_without_gravity), std::string::npos);
-  EXPECT_EQ(text.find("lifts soil"), std::string::npos);
-}
-
-TEST_F(DerivedFieldsUnderGravity, LeastSafetyIsThatOfAllTimes) {
+TEST_F(DerivedFields, LeastSafetyIsThatOfAllTimes) {
   const auto parts = safety_of(results());
   ASSERT_EQ(parts.size(), 3U);
   EXPECT_EQ(parts[0].name, "all soil");

@@ -37,8 +37,7 @@ std::string geometry(double size) {
 
 std::string scene(const std::string& wall = "") {
   std::ostringstream text;
-  text << "name = \"pile\"\nformulation = \"single-point\"\ngravity = [0.0, -9.81]\n"
-       << "geometry.file = \"pile.geo\"\n"
+  text << "name = \"pile\"\nformulation = \"single-point\"\ngeometry.file = \"pile.geo\"\n"
        << "mesh = { size = 1.0, structure = \"free\" }\n"
        << "liquid = { density = 1000.0, bulk_modulus = inf, viscosity = 1e-3 }\n"
        << "soil.sand = { porosity = 0.4, skeleton_fraction = 0.6, grain_density = 2650.0, "
