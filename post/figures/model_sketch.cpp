@@ -240,8 +240,9 @@ std::vector<SketchedBoundary<Dim>> sketched_boundaries(const Mesh<Dim>& mesh, co
     if (text.empty()) {
       add_impervious(boundary.name, support, boundary.faces);
     } else {
-      found.push_back(
-          {boundary.name + ": " + text + (support.empty() ? "" : ", ") + support, boundary.faces});
+      std::string label = boundary.name + ": " + text;
+      if (!support.empty()) label.append(", ").append(support);
+      found.push_back({std::move(label), boundary.faces});
     }
   }
   if (const auto rest = unnamed_faces(mesh); !rest.empty()) add_impervious("unnamed", "", rest);
