@@ -48,7 +48,7 @@ std::vector<PartSafety> safety_of(const ResultsReader& results);
 std::string safety_text(const ResultsReader& results, const std::vector<PartSafety>& parts,
                         const TextStyle& style = {});
 
-/// Of soil that moves, from the last row of its history, which has one: "t = 2 h the largest
+/// The motion of the soil at the last row of a history, which must have a row: "t = 2 h the largest
 /// settlement of the soil is 0.06 m, its largest displacement 0.07 m".
 std::string motion_text(const Table& history, const TimeUnit& unit);
 

@@ -63,8 +63,7 @@ const std::vector<CurveColumn>& curve_columns() {
   return columns;
 }
 
-/// Whether a run has the column, and rows enough for curves. Soil that stays has no
-/// motion.
+/// Whether a run has the column, and rows enough for curves. Soil that stays has no motion.
 bool has_curve(const ResultsReader& run, const CurveColumn& column) {
   if (column.is_motion && !run.scene().scene.moves()) return false;
   const auto is_curve = [&](const Table& table) {

@@ -108,10 +108,9 @@ void BoundaryLoads<Dim>::add(const PointsByElement& sorted, const std::vector<do
   std::vector<char> weighed(passed.size(), 0);
   for (const auto& [b, faces] : water_) {
     const std::vector<int> at_water = faces_at_water(grid_, sorted, faces, passed);
-    add_water(at_water, scene_.boundaries[b].head->value(time), sorted, loads);
-    if (has_free_water_) continue;
-    add_weight(at_water, scene_.boundaries[b].head->value(time), sorted, soil_volume, weighed,
-               loads);
+    const double head = scene_.boundaries[b].head->value(time);
+    add_water(at_water, head, sorted, loads);
+    if (!has_free_water_) add_weight(at_water, head, sorted, soil_volume, weighed, loads);
   }
 }
 

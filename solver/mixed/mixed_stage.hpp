@@ -215,7 +215,7 @@ struct MixedStage {
     for_each_element([&](int e) {
       const double inertia = model.settings.inertia ? c.mixture_density[e] / duration : 0.0;
       resistance[e] = (inertia + c.drag[e]) / c.porosity[e];
-      if (!bedding.empty()) {
+      if (inertia > 0.0 && !bedding.empty()) {
         bedding[e] = bedding[e].beside_isotropic(c.drag[e] / (inertia + c.drag[e]));
       }
       drive[e] = c.mixture_density[e] * model.gravity;

@@ -119,8 +119,8 @@ TEST(DoubtfulScene, none_where_the_numbers_are_right) {
             "");
 }
 
-/// A head below its boundary is right where it is a suction, rises to the boundary, or is the level
-/// of a reservoir, which may rise.
+/// A head below its boundary is right where it is a suction, where it rises to the boundary later,
+/// and where it is the level of a reservoir, which may rise to the boundary.
 TEST(DoubtfulScene, none_of_low_heads_that_act) {
   fs::current_path(folder);
   const auto warnings = [](const std::vector<std::string>& overrides) {
