@@ -7,6 +7,7 @@
 #include "common/errors.hpp"
 #include "mesh/water_line.hpp"
 #include "physics/head.hpp"
+#include "scene/lognormal_field.hpp"
 
 namespace suffuse {
 namespace {
@@ -124,7 +125,10 @@ class Outside {
     const int region = mesh.element_region[grid_.face_left[face]];
     const Soil* soil = scene_.find_soil(mesh.region_names[region]);
     if (!soil) return conductivity_of_free_water;
-    return soil->conductivity / soil->resistance_along(grid_.face_normal[face]);
+    const double along = soil->conductivity / soil->resistance_along(grid_.face_normal[face]);
+    if (!soil->field.varies()) return along;
+    return along * LognormalField(soil->field, soil->bedding)
+                       .at(element_centroid(mesh, grid_.face_left[face]));
   }
 
   const Scene& scene_;
@@ -252,7 +256,8 @@ void BoundaryValues<Dim>::update(const BoundaryTime& time,
     FaceCondition now = condition_of(varying.boundary, varying.index, time);
     if (varying.reservoir >= 0) {
       const ReservoirLevel& start = reservoirs_[varying.reservoir];
-      now.value = start.level + reservoir_rates[varying.reservoir] * (time.end - start.time);
+      const double rate = reservoir_rates[time.stage * reservoirs_.size() + varying.reservoir];
+      now.value = start.level + rate * (time.end - start.time);
     }
     for (std::size_t i = 0; i < varying.faces.size(); ++i) {
       const int f = varying.faces[i];
@@ -287,9 +292,28 @@ double BoundaryValues<Dim>::longest_step(double time, double share) const {
 }
 
 template <int Dim>
-std::vector<double> BoundaryValues<Dim>::reservoir_rates() const {
+std::vector<double> BoundaryValues<Dim>::reservoir_rates(std::size_t times) const {
   std::vector<double> rates;
-  for (const ReservoirLevel& reservoir : reservoirs_) rates.push_back(reservoir.rate);
+  rates.reserve(times * reservoirs_.size());
+  for (std::size_t i = 0; i < times; ++i) {
+    for (const ReservoirLevel& reservoir : reservoirs_) rates.push_back(reservoir.rate);
+  }
+  return rates;
+}
+
+template <int Dim>
+std::vector<double> BoundaryValues<Dim>::stage_rates(const std::vector<double>& face_volume,
+                                                     const std::vector<double>& face_flux,
+                                                     double dt,
+                                                     const std::vector<double>& shares) const {
+  std::vector<double> mean = reservoir_rates(face_volume, dt);
+  if (shares.size() == 1) return mean;
+  std::vector<double> rates = reservoir_rates(face_flux, 1.0);
+  const double share = shares.front();
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    rates[i] = (mean[i] - share * rates[i]) / (1.0 - share);
+  }
+  rates.insert(rates.end(), mean.begin(), mean.end());
   return rates;
 }
 

@@ -59,7 +59,8 @@ std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& 
 template <int Dim>
 std::vector<double> pressure_at_rest(const Scene& scene, const Grid<Dim>& grid);
 
-/// The level of a reservoir, which is linear in time within a step of the flow.
+/// The level of a reservoir. Stages of a step have levels of their own, by the Runge-Kutta method
+/// of the flow.
 struct ReservoirLevel {
   static constexpr bool has_no_gaps = true;  ///< see StateArchive
   double time = 0.0;                         ///< end of the last step, s
@@ -71,12 +72,14 @@ struct ReservoirLevel {
 struct BoundaryTime {
   double end = 0.0;        ///< of heads and pressures: the end of the stage
   double of_fluxes = 0.0;  ///< of fluxes and rain
+  std::size_t stage = 0;   ///< number of the stage
 
-  /// Values of a stage that ends `share` of the step after its start. One stage may have the mean
+  /// Values of a stage that ends its share of the step after the start. One stage may have the mean
   /// flux of the step, so that the volume of a table enters; two stages do so with their own
   /// fluxes. (The error of linear flow in rigid soil would take a change of the mean for a jump.)
-  static BoundaryTime of_stage(double start, double dt, double share, bool has_mean) {
-    return {start + share * dt, start + (has_mean ? 0.5 : share) * dt};
+  static BoundaryTime of_stage(double start, double dt, const std::vector<double>& shares,
+                               std::size_t stage, bool has_mean) {
+    return {start + shares[stage] * dt, start + (has_mean ? 0.5 : shares[stage]) * dt, stage};
   }
 };
 
@@ -93,7 +96,8 @@ class BoundaryValues {
   /// Sets `conditions`, from `at` or `face_conditions` of this case, to those at `time`. Changes
   /// only faces of boundaries whose values change in time.
   void update(double time, std::vector<FaceCondition>& conditions) const;
-  /// Likewise, with levels of reservoirs that have risen at these rates since the last step, m/s.
+  /// Likewise, with levels of reservoirs that have risen since the last step at these rates, m/s, a
+  /// rate per reservoir for each stage.
   void update(const BoundaryTime& time, const std::vector<double>& reservoir_rates,
               std::vector<FaceCondition>& conditions) const;
   /// Sets only the concentrations to those at `time`. Liquid that enters during an interval has the
@@ -104,11 +108,20 @@ class BoundaryValues {
   /// for jumps, s.
   [[nodiscard]] double longest_step(double time, double share) const;
 
-  /// How fast the level of each reservoir rose in the last step, m/s.
-  [[nodiscard]] std::vector<double> reservoir_rates() const;
+  /// How fast the level of each reservoir rose in the last step, m/s; so often, one after the
+  /// other.
+  [[nodiscard]] std::vector<double> reservoir_rates(std::size_t times = 1) const;
   /// How fast it rises where these volumes, m3, cross the faces along their normals in `dt` s.
   [[nodiscard]] std::vector<double> reservoir_rates(const std::vector<double>& face_volume,
                                                     double dt) const;
+  /// Mean rates from the start of a step of `dt`, s, to the end of each of its one or two stages,
+  /// m/s, stage by stage. With the rates r_1 and r_2 of the flow at their ends, levels rise by
+  /// a dt r_1 and by dt ((1 - a) r_1 + a r_2), where a is the share of the first stage.
+  /// \param face_volume  through each face in the step, m3
+  /// \param face_flux    at the end of the step, m3/s
+  [[nodiscard]] std::vector<double> stage_rates(const std::vector<double>& face_volume,
+                                                const std::vector<double>& face_flux, double dt,
+                                                const std::vector<double>& shares) const;
   /// Levels rise at these rates, m/s, until `end`, s.
   void raise_reservoirs(double end, const std::vector<double>& rates);
   /// Head outside an entry of the scene's boundaries that has one, m: of a reservoir its level.

@@ -9,8 +9,9 @@ namespace suffuse {
 template <int Dim>
 std::vector<LeakyFace> leaky_faces(const Case<Dim>& c, const Grid<Dim>& grid) {
   const Scene& scene = c.document.scene;
-  // Both sides have equal heights: the difference of heads is that of pressures.
-  const double pressure_per_head = unit_weight(scene.liquid.density, scene.gravity);
+  // Both sides have equal heights: the difference of heads is that of pressures. Conductances, as
+  // conductivities, are those under the gravity of the earth.
+  const double pressure_per_head = unit_weight(scene.liquid.density, {});
   std::vector<LeakyFace> result;
   for (const Wall& wall : scene.walls) {
     if (wall.conductance == 0.0) continue;

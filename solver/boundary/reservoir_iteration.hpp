@@ -11,17 +11,24 @@ namespace suffuse {
 
 class ReservoirIteration {
  public:
-  /// `tolerance`: rates that differ by less agree, m/s.
-  ReservoirIteration(std::size_t reservoirs, double tolerance)
-      : mixing_(static_cast<int>(reservoirs)), tolerance_(tolerance) {}
+  /// Solutions of a step until a shorter one is tried.
+  static constexpr int max_tries = 20;
+
+  /// \param rates  their number, that of reservoirs times stages
+  /// \param scale  of heads over the length of the step, m/s
+  ReservoirIteration(std::size_t rates, double scale)
+      : mixing_(static_cast<int>(rates)), scale_(scale) {}
 
   /// Whether these rates agree with those that the flow they lead to would have, m/s. Otherwise
   /// changes them to the next ones to try.
   [[nodiscard]] bool agree(std::vector<double>& rates, const std::vector<double>& of_flow);
+  /// Whether a step of this many stages is short enough for its rates: the mean rate over the whole
+  /// step takes no level far from where the mean rate of the first stage would take it.
+  [[nodiscard]] bool follow(const std::vector<double>& rates, std::size_t stages) const;
 
  private:
   AndersonMixing mixing_;
-  double tolerance_;
+  double scale_;
 };
 
 }  // namespace suffuse

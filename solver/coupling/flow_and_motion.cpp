@@ -111,14 +111,16 @@ struct Approach {
   [[nodiscard]] bool guesses(const Eigen::VectorXd& rise) const {
     return iteration == 1 && rise.squaredNorm() > 0.0;
   }
-  /// Whether to go on after an iteration with this difference, Pa.
-  bool is_running_after(double off, double allowed) {
+  /// Whether to go on after an iteration with this difference, Pa. The pressures are near if they
+  /// differ by less than `near`, Pa.
+  bool is_running_after(double off, double near) {
     if (off < nearer * nearest) {
       nearest = off;
       nearest_at = iteration;
     }
-    is_near = is_near || off <= near_agreement * allowed;
-    return iteration < nearest_at + (is_near ? patience_near_agreement : patience);
+    is_near = is_near || off <= near;
+    return iteration < std::min(nearest_at + (is_near ? patience_near_agreement : patience),
+                                max_coupling_iterations);
   }
   /// After the last iteration.
   template <int Dim>
@@ -212,12 +214,15 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
     const Eigen::VectorXd differs = acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs();
     const double off = differs.maxCoeff(&approach.worst_element);
     const double allowed = agreement.allowed(largest(acts.cwiseProduct(new_of_elements)));
-    if (approach.is_near && off <= allowed) {
+    const double tolerated = agreement.tolerated();
+    const bool is_exact = approach.is_near;
+    const bool runs = approach.is_running_after(off, std::max(near_agreement * allowed, tolerated));
+    if (is_exact && off <= (runs ? allowed : std::max(allowed, tolerated))) {
       step.rise = rise_of(rose, dt);
       step.flow.found = std::move(found);
       return std::nullopt;
     }
-    if (!approach.is_running_after(off, allowed)) break;
+    if (!runs) break;
     rise = mixing.next(rise, rose);
   }
   return approach.not_found(grid_);

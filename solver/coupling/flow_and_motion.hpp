@@ -7,6 +7,7 @@
 /// other.
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,9 @@ struct Agreement {
   [[nodiscard]] double allowed(double rise) const {
     return std::min(share * rise, most) + round_off;
   }
+  /// Largest difference of pressures that come no nearer, Pa: where single elements begin and end
+  /// to yield, the iteration may go round in a circle.
+  [[nodiscard]] double tolerated() const { return std::isfinite(most) ? most + round_off : 0.0; }
 };
 
 template <int Dim>

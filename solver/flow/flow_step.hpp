@@ -34,7 +34,7 @@ struct FlowStep {
 
   std::vector<FlowForcing<Dim>> forcing = {};  ///< per stage
   MixedStep<Dim> found = {};
-  std::vector<double> reservoir_rates = {};  ///< at which levels rise in the step, m/s
+  std::vector<double> reservoir_rates = {};  ///< see `BoundaryValues::stage_rates`
   bool is_kept = false;                      ///< the flow is steady and was not solved again
   /// Pores at the end of the step, from erosion alone; none if the flow does not follow pores.
   std::optional<PoreState> expected = {};

@@ -181,7 +181,7 @@ FlowStep<Dim> ImplicitFlow<Dim>::propose(const FlowInterval<Dim>& interval) {
   step.start = interval.start;
   step.until = this->next_breakpoint(interval.start, interval.latest);
   step.dt = control_.propose(interval.start, step.until, interval.longest);
-  step.reservoir_rates = this->boundary_values().reservoir_rates();
+  step.reservoir_rates = this->boundary_values().reservoir_rates(scheme_.stages().size());
   return step;
 }
 
@@ -198,18 +198,17 @@ std::optional<Unsolved> ImplicitFlow<Dim>::try_step(const FlowInterval<Dim>& int
   ++solving_.calls;
   const double height =
       scales_.pressure / unit_weight(this->scene().liquid.density, this->scene().gravity);
-  ReservoirIteration reservoirs(step.reservoir_rates.size(),
-                                implicit_thresholds.reservoir_level * height / step.dt);
-  for (int tries = 0; tries < implicit_thresholds.max_reservoir_tries; ++tries) {
+  ReservoirIteration reservoirs(step.reservoir_rates.size(), height / step.dt);
+  for (int tries = 0; tries < ReservoirIteration::max_tries; ++tries) {
     set_forcing(interval, step);
     step.found = solved(step);
-    if (reservoirs.agree(step.reservoir_rates,
-                         this->boundary_values().reservoir_rates(step.found.face_volume, step.dt)))
-      return std::nullopt;
+    const auto rates = this->boundary_values().stage_rates(
+        step.found.face_volume, step.found.face_flux, step.dt, scheme_.stages());
+    if (!reservoirs.agree(step.reservoir_rates, rates)) continue;
+    if (control_.has_given_step() || reservoirs.follow(rates, step.forcing.size())) return {};
+    break;
   }
-  return Unsolved{
-      "the levels of reservoirs and the flow from them do not agree; a larger reservoir_area or a "
-      "smaller time.tolerance can help"};
+  return Unsolved{"the levels of reservoirs and the flow from them do not agree"};
 } catch (const NotConverged& error) {
   return Unsolved{error.what()};
 }
@@ -274,8 +273,8 @@ template <int Dim>
 void ImplicitFlow<Dim>::set_forcing(const FlowInterval<Dim>& interval, FlowStep<Dim>& step) const {
   const std::vector<double> shares = scheme_.stages();
   step.forcing.resize(shares.size());
-  std::vector<double> source;
-  if (relaxation_.active()) source = relaxation_.next_source(step.dt, filling_time());
+  const auto source = relaxation_.active() ? relaxation_.next_source(step.dt, filling_time())
+                                           : std::vector<double>();
   for (std::size_t stage = 0; stage < shares.size(); ++stage) {
     FlowForcing<Dim>& forcing = step.forcing[stage];
     const double before = just_before(interval.start, step.start + shares[stage] * step.dt);
@@ -286,7 +285,7 @@ void ImplicitFlow<Dim>::set_forcing(const FlowInterval<Dim>& interval, FlowStep<
     if (forcing.conditions.empty()) forcing.conditions = this->conditions_;
     const bool has_mean = shares.size() == 1 && (solid_.moves() || scheme_.is_nonlinear());
     this->boundary_values().update(
-        BoundaryTime::of_stage(step.start, step.dt, shares[stage], has_mean), step.reservoir_rates,
+        BoundaryTime::of_stage(step.start, step.dt, shares, stage, has_mean), step.reservoir_rates,
         forcing.conditions);
     forcing.source = source;
   }

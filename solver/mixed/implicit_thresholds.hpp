@@ -86,13 +86,6 @@ struct ImplicitThresholds {
   /// soil that starts to erode may change its resistance at once.
   double breakpoint_blending = 1e-2;
 
-  // Levels of reservoirs.
-
-  /// A level fits what seeps when it differs by less than this share of the scale of heads.
-  double reservoir_level = 1e-10;
-  /// Solutions of a step until a shorter one is tried.
-  int max_reservoir_tries = 20;
-
   // Reuse of a steady flow (SteadyReuse).
 
   /// A flow is steady when it differs from the steady solution by less than this share of the

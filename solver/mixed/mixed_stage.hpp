@@ -132,16 +132,6 @@ struct MixedStage {
   [[nodiscard]] double conductance_of(int e) const {
     return law.best_mobility(e) * matrix.largest_product(e);
   }
-  /// Largest round-off of the flux through a wall at these pressures, m3/s.
-  [[nodiscard]] double wall_round_off() const {
-    double largest = 0.0;
-    for (const LeakyFace& wall : walls) {
-      for (const int f : {wall.face, wall.partner}) {
-        largest = std::max(largest, epsilon * wall.conductance * std::abs(pressure.rise[f]));
-      }
-    }
-    return largest;
-  }
   /// Sets an element's mobility (Darcy's plus the additional one), m3 s/kg, and its drive.
   void set_mobility(int e, double of_darcy) {
     law.mobility[e] = of_darcy;

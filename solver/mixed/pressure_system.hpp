@@ -2,6 +2,7 @@
 
 /// The linear systems for the pressures of a stage.
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -86,7 +87,12 @@ class PressureSystem {
     const double round_off = stage.largest_of_elements([&](int e) {
       return epsilon * stage.conductance_of(e) * model.largest_at_faces(e, stage.pressure.rise);
     });
-    if (std::max(round_off, stage.wall_round_off()) <= 1e-12 * through) return;
+    double of_walls = 0.0;
+    for (const auto& [face, partner, conductance] : stage.walls) {
+      const double rise = std::hypot(stage.pressure.rise[face], stage.pressure.rise[partner]);
+      of_walls = std::max(of_walls, epsilon * conductance * rise);
+    }
+    if (std::max(round_off, largest_of_all(ranks_, of_walls)) <= 1e-12 * through) return;
     stage.pressure.move_reference(stage.base.face_pressure);
     solve(stage);
     stage.flux = stage.found_flux();

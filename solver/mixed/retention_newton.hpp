@@ -17,7 +17,8 @@ class RetentionNewton {
         system_(system),
         model_(stage.model),
         faces_(stage.faces),
-        round_off_(balance_round_off()),
+        allowed_(model_.grid.volume.size()),
+        round_off_(allowed_.size()),
         side_storage_(stage.displaced.size()),
         gain_(stage.displaced.size()),
         steepest_(stage.displaced.size()) {
@@ -46,13 +47,14 @@ class RetentionNewton {
       const double left = system_.largest_load();
       if (iteration == 0) first_norm = norm;
       if (iteration == 0) enough = stage_.forcing.reduction * left;
-      const double allowed =
-          flux_accuracy * scale + round_off_ + round_off_units * stage_.wall_round_off();
+      find_allowed(scale);
+      const double excess = largest_excess(allowed_);
       // Accept round-off where water is at rest or an element is nearly flat.
-      const bool stays = norm > 0.5 * last_norm && is_round_off_left();
-      const bool solved = left <= std::max(allowed, enough) || stays;
-      const bool switched = (solved || left <= near_solution * scale + allowed) &&
-                            switch_faces(solved ? std::max(left, allowed) : allowed);
+      const bool stays =
+          norm > 0.5 * last_norm && largest_excess(round_off_) <= many_round_off_units;
+      const bool solved = std::isfinite(left) && (left <= enough || excess <= 1.0 || stays);
+      const bool switched = (solved || left <= near_solution * scale) &&
+                            switch_faces(solved ? std::max(excess, 1.0) : 1.0);
       if (!switched && solved) return iteration;
       // The iteration diverges; that of a shorter time step starts nearer to its end.
       const bool wanders =
@@ -73,8 +75,9 @@ class RetentionNewton {
   static constexpr int max_newton_iterations = 60;
   /// After this many iterations of a step the residual must be smaller than at the start.
   static constexpr int patient_iterations = 20;
-  /// Tolerated residual at a face as a share of the largest flux, in addition to round-off of the
-  /// flux by gravity and of the contents of the elements.
+  /// Tolerated residual at a face as shares of the largest flux of all and of its two elements, in
+  /// addition to round-off. The second is for tight soil beside strong flow.
+  static constexpr double local_accuracy = 1e-5;
   static constexpr double flux_accuracy = 1e-8;
   static constexpr double round_off_units = 64.0;
   /// Looser tolerance when the iteration stagnates, in units of the round-off of the fluxes that an
@@ -194,8 +197,8 @@ class RetentionNewton {
     model_.grid.face_rows().exchange(pressure.rise);
   }
 
-  /// Opens and closes seepage faces. Returns whether any changed.
-  bool switch_faces(double flux_tolerance) {
+  /// Opens and closes seepage faces. Returns whether any changed. `inexact`: residual over allowed.
+  bool switch_faces(double inexact) {
     const FacePressure& pressure = stage_.pressure;
     const double pressure_tolerance = pressure_accuracy();
     bool switched = false;
@@ -205,7 +208,7 @@ class RetentionNewton {
       const double rise = pressure.offset[f] + pressure.rise[f];
       const bool takes_in_more =
           faces_.is_open(f) && -stage_.flux_out(e, model_.grid.side_of(e, f), rise) >
-                                   faces_.most_inflow(f) + flux_tolerance;
+                                   faces_.most_inflow(f) + inexact * allowed_[e];
       const bool presses =
           !faces_.is_open(f) && pressure.reference[f] + pressure.rise[f] > pressure_tolerance;
       if (!takes_in_more && !presses) continue;
@@ -255,38 +258,46 @@ class RetentionNewton {
     }
     return std::isfinite(lowest);
   }
-  /// Round-off of the flux by gravity and of the contents of the elements, m3/s.
-  [[nodiscard]] double balance_round_off() const {
-    return round_off_units * epsilon * stage_.largest_of_elements([&](int e) {
-      const double pores = stage_.coefficients.porosity[e] * model_.grid.volume[e];
-      return model_.gravity_flux(e, stage_.coefficients) + pores / stage_.duration;
+  /// Sets what each element may leave at a side, m3/s: shares of its largest flux and of `scale`,
+  /// that of all, and round-off of the flux by gravity, conductances times pressures, contents.
+  void find_allowed(double scale) {
+    const FlowCoefficients<Dim>& c = stage_.coefficients;
+    stage_.for_each_element([&](int e) {
+      const double pressure = model_.largest_at_faces(e, stage_.pressure.reference);
+      const double contents = c.porosity[e] * model_.grid.volume[e] / stage_.duration;
+      round_off_[e] =
+          epsilon * (model_.gravity_flux(e, c) + stage_.conductance_of(e) * pressure + contents);
+      allowed_[e] = round_off_units * round_off_[e] +
+                    std::min(flux_accuracy * scale, local_accuracy * largest_flux(e));
     });
-  }
-  /// Whether the residual at each face is round-off of its terms, the conductances of the adjacent
-  /// elements times their pressures.
-  [[nodiscard]] bool is_round_off_left() const {
-    const double units = stage_.largest_of_faces([&](int f) {
-      const double missing =
-          faces_.is_held(f) ? 0.0 : std::abs(system_.load()[system_.matrix().unknown(f)]);
-      double sum = 0.0;
-      for (const int e : {model_.grid.face_left[f], model_.grid.face_right[f]}) {
-        if (e < 0) continue;
-        const double pressure = model_.largest_at_faces(e, stage_.pressure.reference);
-        sum += model_.gravity_flux(e, stage_.coefficients) + stage_.conductance_of(e) * pressure;
+    for (const LeakyFace& wall : stage_.walls) {
+      for (const int f : {wall.face, wall.partner}) {
+        const double more = epsilon * wall.conductance * std::abs(stage_.pressure.reference[f]);
+        round_off_[model_.grid.face_left[f]] += more;
+        allowed_[model_.grid.face_left[f]] += round_off_units * more;
       }
-      return missing > 0.0 ? missing / (epsilon * sum) : 0.0;
-    });
-    return units <= many_round_off_units;
+    }
   }
-  /// Largest flux through a side of an element, m3/s.
+  /// Largest residual at a face, over what its elements may leave.
+  [[nodiscard]] double largest_excess(const std::vector<double>& allowed) const {
+    return stage_.largest_of_faces([&](int f) {
+      const int right = model_.grid.face_right[f];
+      if (faces_.is_held(f)) return 0.0;
+      const double sum = allowed[model_.grid.face_left[f]] + (right < 0 ? 0.0 : allowed[right]);
+      const double missing = std::abs(system_.load()[system_.matrix().unknown(f)]);
+      return missing > 0.0 ? missing / sum : 0.0;
+    });
+  }
+  /// Largest flux through a side of an element, and of all elements, m3/s.
+  [[nodiscard]] double largest_flux(int e) const {
+    double largest = 0.0;
+    for (int k = 0; k <= Dim; ++k) {
+      largest = std::max(largest, std::abs(stage_.flux[e].dot(model_.grid.outward_normal(e, k))));
+    }
+    return largest;
+  }
   [[nodiscard]] double largest_flux() const {
-    return stage_.largest_of_elements([&](int e) {
-      double largest = 0.0;
-      for (int k = 0; k <= Dim; ++k) {
-        largest = std::max(largest, std::abs(stage_.flux[e].dot(model_.grid.outward_normal(e, k))));
-      }
-      return largest;
-    });
+    return stage_.largest_of_elements([&](int e) { return largest_flux(e); });
   }
   /// Tolerance of the pressure at a seepage face: 1e-9 of the largest pressure, Pa.
   [[nodiscard]] double pressure_accuracy() const {
@@ -300,7 +311,8 @@ class RetentionNewton {
   PressureSystem<Dim>& system_;
   const MixedModel<Dim>& model_;
   StageFaces<Dim>& faces_;
-  double round_off_;                ///< of the balance, m3/s
+  std::vector<double> allowed_;     ///< per element, see `find_allowed`
+  std::vector<double> round_off_;   ///< per element, m3/s
   ElementField<Dim> side_storage_;  ///< slope of the rate of displacement, m3/(s Pa)
   ElementField<Dim> gain_;          ///< dk_r/dp at a side over k_r of the element, 1/Pa
   std::vector<std::array<double, 2>> steepest_;  ///< `FlowSoils::steepest` per element

@@ -64,7 +64,7 @@ std::vector<double> diffusivity(const Grid<Dim>& grid, const SoilMap<Dim>& soils
       const double along = soil.conductivity_model().at(initial_porosity[p], porosity[p]);
       conductivity = std::min({conductivity, along, along * soil.anisotropy()});
     }
-    result[e] = conductivity * modulus / unit_weight(scene.liquid.density, scene.gravity);
+    result[e] = conductivity * modulus / unit_weight(scene.liquid.density, {});
   }
   return result;
 }

@@ -43,8 +43,8 @@ SafetyFactor find_safety_factor(const Grid<Dim>& grid, const SoilMap<Dim>& soils
     const Soil& soil = soils.soil_of_region(state.region[p]);
     skeleton.push_back(skeleton_at(soil.skeleton, state.fines_left[p]));
     // Other laws than those with a strength would yield under the loads of a trial in one step.
-    const bool is_elastic =
-        soil.skeleton.moves() && !(failing.includes(soil.region) && soil.skeleton.law->yields());
+    const bool is_elastic = soil.skeleton.moves() &&
+                            !(failing.includes(soil.region) && soil.skeleton.law->has_strength());
     if (is_elastic) skeleton.back().law = skeleton_law("elastic");
     mass.solid.push_back(state.solid_volume[p] * soil.grain_density);
   }

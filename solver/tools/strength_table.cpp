@@ -38,14 +38,14 @@ constexpr double noticed_crack = 0.25;
 constexpr std::size_t few_elements = 40;
 
 bool has_strength(const Soil& soil) {
-  return soil.skeleton.moves() && soil.skeleton.law->yields();
+  return soil.skeleton.moves() && soil.skeleton.law->has_strength();
 }
 
 void refuse_without_strength(const SceneDocument& document) {
   if (std::ranges::any_of(document.scene.soils, has_strength)) return;
   std::vector<std::string> laws;
   for (const SkeletonLaw* law : skeleton_laws()) {
-    if (law->yields()) laws.push_back(shown_value(std::string(law->word)));
+    if (law->has_strength()) laws.push_back(shown_value(std::string(law->word)));
   }
   throw InputError(document.path +
                    ": --strength-reduction: got no soil with a strength; expected law = " +

@@ -101,5 +101,19 @@ TEST(Reservoir, LosesWhatEntersTheSoilAlsoWhereItsLevelPassesTheSoil) {
   EXPECT_LT(run.worst_residual(), 1e-12);
 }
 
+TEST(Reservoir, EmptiesWithoutRingingHoweverLongItsRun) {
+  // It empties within seconds, and the run lasts for weeks.
+  constexpr double area = 1e-3;
+  Scene scene = column_scene({head_on("left", 0.9, area), head_on("right", 0.1)}, 2e6);
+  scene.gravity = {0.0, -9.81, 0.0};
+  scene.water_level = 0.1;
+  scene.initial_flow = InitialFlow::rest;
+  model::ModelRun run(model::make_case(model::column_mesh(6, 6), scene));
+  const BoundaryRow row = run.model().boundary_rows(run.run({2e6}).flows.back())[0];
+  EXPECT_NEAR(row.level, 0.1, 1e-6);
+  EXPECT_NEAR(row.liquid_in, area * 0.8, 0.02 * area * 0.8);
+  EXPECT_LT(row.liquid_out, 0.02 * area * 0.8);
+}
+
 }  // namespace reservoir_test
 }  // namespace suffuse

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "model_run.hpp"
+#include "scene/lognormal_field.hpp"
 
 namespace suffuse {
 namespace well_test {
@@ -89,6 +90,11 @@ TEST(Well, TakesFromLayersAsOneLevelWould) {
   scene.liquid.bulk_modulus = std::numeric_limits<double>::infinity();
   scene.soils[0].conductivity = sand;
   scene.soils.push_back(scene.soils[0]);
+  // A random field whose waves are much longer than the layer multiplies its conductivity.
+  scene.soils[0].field = {.variation = 0.5, .along = 1e12, .across = 1e12, .seed = 3};
+  const double factor = LognormalField(scene.soils[0].field, 0.0).at(5.0, 0.0, 0.5);
+  EXPECT_GT(std::abs(std::log(factor)), 0.1);
+  scene.soils[0].conductivity = sand / factor;
   scene.soils[1].region = "clay";
   scene.soils[1].conductivity = clay;
   scene.soils[1].conductivity_across = 0.01 * clay;

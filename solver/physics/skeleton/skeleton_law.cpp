@@ -15,10 +15,8 @@ const SkeletonLaw* skeleton_law(std::string_view word) {
   throw std::invalid_argument("no skeleton law '" + std::string(word) + "'");
 }
 
-bool SkeletonLaw::yields() const {
-  return std::ranges::any_of(parameters, [](const SkeletonParameter& parameter) {
-    return parameter.value == &SkeletonModel::cohesion;
-  });
+bool SkeletonLaw::has_strength() const {
+  return std::ranges::count(parameters, &SkeletonModel::cohesion, &SkeletonParameter::value) > 0;
 }
 
 FinesFunction::FinesFunction(std::vector<std::pair<double, double>> all) : pairs(std::move(all)) {

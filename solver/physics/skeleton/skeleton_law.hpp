@@ -28,7 +28,9 @@ struct PrincipalResponse {
 /// A law of the skeleton.
 struct SkeletonLaw {
   /// Whether the law has a strength, which a factor of safety can divide.
-  [[nodiscard]] bool yields() const;
+  [[nodiscard]] bool has_strength() const;
+  /// Whether its soil can yield: elastic laws have two parameters.
+  [[nodiscard]] bool yields() const { return parameters.size() > 2; }
 
   std::string_view word;         ///< value of `law` in a scene
   std::string_view description;  ///< for the scene reference
