@@ -2,7 +2,6 @@
 
 /// The linear systems for the pressures of a stage.
 
-#include <cmath>
 #include <optional>
 #include <vector>
 

@@ -128,6 +128,14 @@ void refuse_explicit(const SceneDocument& document) {
                                 "\"implicit\": only its fluxes bound the discharge"});
 }
 
+/// The flow at the start would be that of soil that no earlier run has changed.
+void refuse_later_stage(const SceneDocument& document) {
+  const std::string& from = document.scene.initial_from;
+  if (from.empty()) return;
+  throw InputError(InputProblem{document.locate("initial.from"), "initial.from", shown_value(from),
+                                "none, or --from with the results of a run of this case"});
+}
+
 void refuse_without_flow(const SceneDocument& document, const KnownDischarge& known, bool of_run) {
   if (known.largest > no_flow * known.largest_flux &&
       known.interval().half() < round_off_alone * known.largest) {
@@ -164,6 +172,7 @@ void write_sizes(Case<Dim> c, const SizesOptions& options) {
   const SceneDocument& document = c.document;
   const bool of_run = !options.run.empty();
   refuse_explicit(document);
+  if (!of_run) refuse_later_stage(document);
   const KnownDischarge known =
       of_run ? known_from_run(c, options.run) : known_at_start(c, options.threads);
   refuse_without_flow(document, known, of_run);

@@ -164,6 +164,14 @@ TEST_F(MeshAgain, RefusesTheRunOfAnotherCase) {
   EXPECT_NE(alone.error.find("--from requires --sizes"), std::string::npos) << alone.error;
 }
 
+TEST_F(MeshAgain, RefusesTheStartOfALaterStage) {
+  // The soil at its start is what the earlier run has left, not that of the scene.
+  run(test::with(two_weirs(), "earlier", {}));
+  static_cast<void>(place_.make_case(
+      test::with(two_weirs(), "weirs", {R"(initial={from = "earlier.results"})"})));
+  expect_refused("", "initial.from: got \"earlier.results\"; expected none, or --from");
+}
+
 TEST_F(MeshAgain, RefusesTheExplicitScheme) {
   const test::Mode is_explicit =
       test::with(two_weirs(), "explicit",
