@@ -94,7 +94,9 @@ Unsolved no_equilibrium(const std::string& where, int worst_node) {
 
 /// How near the iterations of a step have come to agreement.
 struct Approach {
-  bool is_near = false;           ///< they have been near
+  bool is_near = false;           ///< they have been near: residuals are exact since
+  bool agrees = false;            ///< see `take`
+  bool goes_on = true;            ///< see `take`
   double nearest = infinity;      ///< smallest difference of pressures, Pa
   int nearest_at = 0;             ///< iteration that had it
   int iteration = 0;              ///< the present one, from 1
@@ -111,16 +113,18 @@ struct Approach {
   [[nodiscard]] bool guesses(const Eigen::VectorXd& rise) const {
     return iteration == 1 && rise.squaredNorm() > 0.0;
   }
-  /// Whether to go on after an iteration with this difference, Pa. The pressures are near if they
-  /// differ by less than `near`, Pa.
-  bool is_running_after(double off, double near) {
+  /// Takes the difference of the pressures after an iteration, Pa, and what agreement allows. Sets
+  /// whether they agree and whether to go on.
+  void take(double off, double allowed, double tolerated) {
     if (off < nearer * nearest) {
       nearest = off;
       nearest_at = iteration;
     }
-    is_near = is_near || off <= near;
-    return iteration < std::min(nearest_at + (is_near ? patience_near_agreement : patience),
-                                max_coupling_iterations);
+    const bool was_exact = is_near;
+    is_near = is_near || off <= std::max(near_agreement * allowed, tolerated);
+    goes_on = iteration < std::min(nearest_at + (is_near ? patience_near_agreement : patience),
+                                   max_coupling_iterations);
+    agrees = was_exact && off <= (goes_on ? allowed : std::max(allowed, tolerated));
   }
   /// After the last iteration.
   template <int Dim>
@@ -214,15 +218,13 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
     const Eigen::VectorXd differs = acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs();
     const double off = differs.maxCoeff(&approach.worst_element);
     const double allowed = agreement.allowed(largest(acts.cwiseProduct(new_of_elements)));
-    const double tolerated = agreement.tolerated();
-    const bool is_exact = approach.is_near;
-    const bool runs = approach.is_running_after(off, std::max(near_agreement * allowed, tolerated));
-    if (is_exact && off <= (runs ? allowed : std::max(allowed, tolerated))) {
+    approach.take(off, allowed, agreement.tolerated());
+    if (approach.agrees) {
       step.rise = rise_of(rose, dt);
       step.flow.found = std::move(found);
       return std::nullopt;
     }
-    if (!runs) break;
+    if (!approach.goes_on) break;
     rise = mixing.next(rise, rose);
   }
   return approach.not_found(grid_);
