@@ -50,8 +50,8 @@ class BoundaryLoads {
   /// Adds the pressure of outer water of a head, m, on faces.
   void add_water(const std::vector<int>& faces, double head, const PointsByElement& sorted,
                  NodalLoads<Dim>& loads) const;
-  /// Adds the weight of the outer water above the soil in the elements at these faces. Each element
-  /// counts once: `weighed` marks those whose water has been added.
+  /// Adds the weight of the outer water above the soil in the elements at these faces. Leaves out
+  /// elements that are marked in `weighed`, and marks those whose water it adds.
   void add_weight(const std::vector<int>& faces, double head, const PointsByElement& sorted,
                   const std::vector<double>& soil_volume, std::vector<char>& weighed,
                   NodalLoads<Dim>& loads) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/errors.hpp"
 #include "mesh/water_line.hpp"
@@ -100,7 +101,13 @@ class Outside {
         gravity_(scene.gravity),
         water_line_(grid.mesh, scene.gravity,
                     largest_of_all(grid.ranks(), largest_coordinate(grid.mesh))),
-        unit_weight_(unit_weight(scene.liquid.density, scene.gravity)) {}
+        unit_weight_(unit_weight(scene.liquid.density, scene.gravity)) {
+    for (const std::string& name : grid.mesh.region_names) {
+      const Soil* soil = scene.find_soil(name);
+      std::optional<LognormalField>& field = field_.emplace_back();
+      if (soil && soil->field.varies()) field.emplace(soil->field, soil->bedding);
+    }
+  }
   /// \param conductance  of the face's boundary, m3/s
   [[nodiscard]] FaceSurroundings of(int face, double conductance) const {
     return {.unit_weight = unit_weight_,
@@ -126,9 +133,8 @@ class Outside {
     const Soil* soil = scene_.find_soil(mesh.region_names[region]);
     if (!soil) return conductivity_of_free_water;
     const double along = soil->conductivity / soil->resistance_along(grid_.face_normal[face]);
-    if (!soil->field.varies()) return along;
-    return along * LognormalField(soil->field, soil->bedding)
-                       .at(element_centroid(mesh, grid_.face_left[face]));
+    const std::optional<LognormalField>& field = field_[region];
+    return field ? along * field->at(element_centroid(mesh, grid_.face_left[face])) : along;
   }
 
   const Scene& scene_;
@@ -136,6 +142,7 @@ class Outside {
   std::array<double, 3> gravity_;
   WaterLine<Dim> water_line_;
   double unit_weight_;
+  std::vector<std::optional<LognormalField>> field_;  ///< per region; nothing: k does not vary
 };
 
 /// Faces of the grid per boundary entry of the scene. Throws InputError.

@@ -59,8 +59,8 @@ std::vector<FaceCondition> face_conditions(const Case<Dim>& c, const Grid<Dim>& 
 template <int Dim>
 std::vector<double> pressure_at_rest(const Scene& scene, const Grid<Dim>& grid);
 
-/// The level of a reservoir. Stages of a step have levels of their own, by the Runge-Kutta method
-/// of the flow.
+/// The level of a reservoir at the end of the last step. `BoundaryValues::stage_rates` gives the
+/// levels within a step.
 struct ReservoirLevel {
   static constexpr bool has_no_gaps = true;  ///< see StateArchive
   double time = 0.0;                         ///< end of the last step, s
@@ -108,8 +108,8 @@ class BoundaryValues {
   /// for jumps, s.
   [[nodiscard]] double longest_step(double time, double share) const;
 
-  /// How fast the level of each reservoir rose in the last step, m/s; so often, one after the
-  /// other.
+  /// How fast the level of each reservoir rose in the last step, m/s. The list of all reservoirs is
+  /// repeated this number of times.
   [[nodiscard]] std::vector<double> reservoir_rates(std::size_t times = 1) const;
   /// How fast it rises where these volumes, m3, cross the faces along their normals in `dt` s.
   [[nodiscard]] std::vector<double> reservoir_rates(const std::vector<double>& face_volume,

@@ -22,8 +22,8 @@ class ReservoirIteration {
   /// Whether these rates agree with those that the flow they lead to would have, m/s. Otherwise
   /// changes them to the next ones to try.
   [[nodiscard]] bool agree(std::vector<double>& rates, const std::vector<double>& of_flow);
-  /// Whether a step of this many stages is short enough for its rates: the mean rate over the whole
-  /// step takes no level far from where the mean rate of the first stage would take it.
+  /// Whether the step is short enough. It is too long if its mean rate and the rate of its first
+  /// stage lead to levels that differ much.
   [[nodiscard]] bool follow(const std::vector<double>& rates, std::size_t stages) const;
 
  private:
