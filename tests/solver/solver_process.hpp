@@ -104,8 +104,12 @@ std::string difference(const std::string& results, const std::string& others);
 /// All bytes of all files of a folder, including the lock; with their names.
 std::string contents(const std::string& folder);
 
-/// All faults of a folder that a run has left at any moment: every snapshot that a series names is
-/// read completely, every table has whole rows, run.json names the scene. Empty if there are none.
+/// Faults that the results have even if the solver was killed: a snapshot that a series names
+/// cannot be read completely, a row of a table has missing cells, run.json does not name the scene.
+/// Empty if there are none.
+std::string flaws_after_kill(const std::string& results);
+
+/// In addition, tables that end within a row: the system may cut what a killed program is writing.
 std::string flaws(const std::string& results);
 
 }  // namespace suffuse::test
