@@ -42,9 +42,11 @@ PseudoTime<Dim>::PseudoTime(ForceBalance<Dim>& equilibrium, const NodeVectors<Di
 }
 
 template <int Dim>
-SettledSoil<Dim> PseudoTime<Dim>::settle(NodeVectors<Dim> start, const SettlingLimits& limits) {
+SettledSoil<Dim> PseudoTime<Dim>::settle(NodeVectors<Dim> start,
+                                         const SettlingLimits<Dim>& limits) {
   soil_ = {};
-  soil_.displacement = std::move(start);
+  soil_.displacement = start;
+  start_ = std::move(start);
   soil_.motion.assign(loads_.size(), Vector<Dim>::Zero());
   length_ = first_length;
   last_length_ = time_ = 0.0;
@@ -155,10 +157,10 @@ bool PseudoTime<Dim>::improve(Eigen::VectorXd& defect) {
 
 /// Finds the residual at the present displacement, and whether the soil rests or runs away.
 template <int Dim>
-void PseudoTime<Dim>::judge(const SettlingLimits& limits) {
+void PseudoTime<Dim>::judge(const SettlingLimits<Dim>& limits) {
   unbalanced_ = unbalanced();
   soil_.residual = unbalanced_.norm() / (equilibrium_.force_scale() + norm<Dim>(loads_));
-  if (largest_length<Dim>(soil_.displacement, limits.loose) > limits.far) {
+  if (limits.size(way_from(start_)) > limits.far) {
     soil_.end = Settling::runs_away;
   } else if (soil_.residual <= limits.tolerance) {
     soil_.end = Settling::rests;
@@ -167,22 +169,26 @@ void PseudoTime<Dim>::judge(const SettlingLimits& limits) {
 }
 
 template <int Dim>
-void PseudoTime<Dim>::judge_motion(const SettlingLimits& limits) {
-  const auto moved = [&](const Sample& from, const Sample& to) {
-    NodeVectors<Dim> way = to.displacement;
-    for (std::size_t i = 0; i < way.size(); ++i) way[i] -= from.displacement[i];
-    return largest_length<Dim>(way, limits.loose);
-  };
+NodeVectors<Dim> PseudoTime<Dim>::way_from(const NodeVectors<Dim>& earlier) const {
+  NodeVectors<Dim> way = soil_.displacement;
+  for (std::size_t i = 0; i < way.size(); ++i) way[i] -= earlier[i];
+  return way;
+}
+
+template <int Dim>
+void PseudoTime<Dim>::judge_motion(const SettlingLimits<Dim>& limits) {
   const Sample& first = samples_.front();
   const Sample& middle = samples_.back();
-  const Sample last{time_, soil_.displacement};
   const double third_quarter = middle.time - first.time;
-  const double last_quarter = last.time - middle.time;
+  const double last_quarter = time_ - middle.time;
   if (limits.still == 0.0 || std::min(third_quarter, last_quarter) < long_enough) return;
-  const double early = moved(first, middle) / third_quarter;
-  const double late = moved(middle, last) / last_quarter;
-  const bool slows_down = late < constant_speed * early;
-  if (moved(first, last) <= limits.still || (slows_down && late <= limits.slow)) {
+  const NodeVectors<Dim> all = way_from(first.displacement);
+  const NodeVectors<Dim> late = way_from(middle.displacement);
+  NodeVectors<Dim> early = all;
+  for (std::size_t i = 0; i < early.size(); ++i) early[i] -= late[i];
+  const double speed = limits.size(late) / last_quarter;
+  const bool slows_down = speed < constant_speed * limits.size(early) / third_quarter;
+  if (limits.size(all) <= limits.still || (slows_down && speed <= limits.slow)) {
     soil_.end = Settling::rests;
   } else if (!slows_down) {
     soil_.end = Settling::runs_away;

@@ -3,6 +3,7 @@
 /// Decides whether soil under constant loads comes to rest or fails.
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "equilibrium/force_balance.hpp"
@@ -16,32 +17,31 @@ enum class Settling {
   undecided   ///< neither, when steps or iterations ran out
 };
 
+template <int Dim>
+double largest_length(const NodeVectors<Dim>& vectors) {
+  double result = 0.0;
+  for (const Vector<Dim>& v : vectors) result = std::max(result, v.norm());
+  return result;
+}
+
+template <int Dim>
 struct SettlingLimits {
   /// Largest residual of soil at rest, over the forces of the elements and the loads together.
   double tolerance = 1e-9;
-  /// Displacement that counts as running away, m.
+  /// Size of a displacement from the start that counts as running away.
   double far = 0.0;
-  /// Displacement in the second half of the iterations, m, up to which soil counts as at rest when
-  /// they end; soil that moved farther and did not slow down runs away. 0: it is not judged so.
+  /// Size of the displacement in the second half of the iterations up to which soil counts as at
+  /// rest when they end; soil that moved farther and did not slow down runs away. 0: it is not
+  /// judged so.
   double still = 0.0;
-  /// Speed, m per unit of pseudo-time, up to which soil that slows down then counts as at rest.
+  /// Speed, as a size per unit of pseudo-time, up to which soil that slows down then counts as at
+  /// rest.
   double slow = 0.0;
-  /// Per node: whether hardly any soil holds it, so that its displacement does not count; empty:
-  /// all nodes count.
-  std::vector<char> loose = {};
+  /// Size of a displacement, m: of the largest of its nodes, m, or over a length of the caller's.
+  std::function<double(const NodeVectors<Dim>&)> size = largest_length<Dim>;
   /// Iterations of Newton's method, in all steps.
   int max_iterations = 400;
 };
-
-/// Largest length of the vectors at nodes that are not loose (see SettlingLimits).
-template <int Dim>
-double largest_length(const NodeVectors<Dim>& vectors, const std::vector<char>& loose) {
-  double result = 0.0;
-  for (std::size_t i = 0; i < vectors.size(); ++i) {
-    if (loose.empty() || loose[i] == 0) result = std::max(result, vectors[i].norm());
-  }
-  return result;
-}
 
 template <int Dim>
 struct SettledSoil {
@@ -75,7 +75,7 @@ class PseudoTime {
 
   /// Leaves the equilibrium displaced by the result.
   /// \param start  displacement to start from, m, which must be possible
-  SettledSoil<Dim> settle(NodeVectors<Dim> start, const SettlingLimits& limits);
+  SettledSoil<Dim> settle(NodeVectors<Dim> start, const SettlingLimits<Dim>& limits);
 
  private:
   [[nodiscard]] Eigen::VectorXd unbalanced() const;
@@ -84,9 +84,12 @@ class PseudoTime {
   bool take(const NodeVectors<Dim>& displacement, Eigen::VectorXd& defect);
   bool step(int max_iterations);
   bool improve(Eigen::VectorXd& defect);
-  void judge(const SettlingLimits& limits);
+  void judge(const SettlingLimits<Dim>& limits);
   /// Judges by the motion over the second half of the iterations.
-  void judge_motion(const SettlingLimits& limits);
+  void judge_motion(const SettlingLimits<Dim>& limits);
+
+  /// Present displacement from an earlier one, m.
+  [[nodiscard]] NodeVectors<Dim> way_from(const NodeVectors<Dim>& earlier) const;
 
   /// A state on the way.
   struct Sample {
@@ -100,6 +103,7 @@ class PseudoTime {
   Eigen::SparseMatrix<double> elastic_;
   Eigen::SparseMatrix<double> matrix_;
   SettledSoil<Dim> soil_;        ///< at the end of the last step
+  NodeVectors<Dim> start_;       ///< displacement, m
   NodeVectors<Dim> trial_;       ///< displacement in the iterations of a step, m
   Eigen::VectorXd unbalanced_;   ///< forces at the start of the step
   double length_ = 1.0;          ///< of the step, in pseudo-time

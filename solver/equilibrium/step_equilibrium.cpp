@@ -65,7 +65,7 @@ double StepEquilibrium<Dim>::stay(const NodeVectors<Dim>& loads, std::vector<dou
 
 template <int Dim>
 bool StepEquilibrium<Dim>::settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
-                                  const SettlingLimits& limits) {
+                                  const SettlingLimits<Dim>& limits) {
   equilibrium_.set_pressure(std::move(pressure));
   SettledSoil<Dim> soil =
       PseudoTime<Dim>(equilibrium_, loads)

@@ -37,7 +37,7 @@ class StepEquilibrium {
   /// Finds the displacement in a pseudo-time where Newton's method alone fails: in sand without
   /// cohesion.
   bool settle(const NodeVectors<Dim>& loads, std::vector<double> pressure,
-              const SettlingLimits& limits);
+              const SettlingLimits<Dim>& limits);
   /// Leaves the soil where it is. Returns the norm of the forces out of balance then, N.
   double stay(const NodeVectors<Dim>& loads, std::vector<double> pressure);
   /// Sets inertia over a step of `duration`, s; the initial guess keeps the nodes' velocities.

@@ -59,7 +59,7 @@ template <int Dim>
 StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton>& skeleton,
                           const Supports<Dim>& supports, const StartLoads<Dim>& loads,
                           SolidPoints<Dim>& points, int threads) {
-  SettlingLimits limits{.tolerance = NewtonLimits().tolerance,
+  SettlingLimits<Dim> limits{.tolerance = NewtonLimits().tolerance,
                         .far = far_share * extent(grid.mesh).norm(),
                         .max_iterations = max_slow_iterations};
   StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);

@@ -149,9 +149,15 @@ void DisplacementUnknowns<Dim>::add(const Eigen::VectorXd& components, double sh
 template class Supports<2>;
 template class Supports<3>;
 template <int Dim>
+NodeVectors<Dim> DisplacementUnknowns<Dim>::vectors(const Eigen::VectorXd& components) const {
+  NodeVectors<Dim> result(first_.size(), Vector<Dim>::Zero());
+  add(components, 1.0, result);
+  return result;
+}
+
+template <int Dim>
 int DisplacementUnknowns<Dim>::longest(const Eigen::VectorXd& components) const {
-  NodeVectors<Dim> vectors(first_.size(), Vector<Dim>::Zero());
-  add(components, 1.0, vectors);
+  const NodeVectors<Dim> vectors = this->vectors(components);
   const auto shorter = [](const Vector<Dim>& a, const Vector<Dim>& b) {
     return a.squaredNorm() < b.squaredNorm();
   };

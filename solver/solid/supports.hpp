@@ -80,6 +80,8 @@ class DisplacementUnknowns {
   [[nodiscard]] Eigen::VectorXd components(const NodeVectors<Dim>& vectors) const;
   /// Adds `share` times the vectors that have these components.
   void add(const Eigen::VectorXd& components, double share, NodeVectors<Dim>& vectors) const;
+  /// The vectors that have these components, and none along held directions.
+  [[nodiscard]] NodeVectors<Dim> vectors(const Eigen::VectorXd& components) const;
   /// Node with the longest vector of these components.
   [[nodiscard]] int longest(const Eigen::VectorXd& components) const;
 

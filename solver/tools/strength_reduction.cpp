@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include "equilibrium/newton.hpp"
@@ -13,18 +14,23 @@
 namespace suffuse {
 namespace {
 
-/// Largest displacement of the elastic body in trials, over the size of the smallest element.
-constexpr double elastic_displacement = 1e-5;
+/// Largest displacement of the elastic body in trials, over the size of the model.
+constexpr double elastic_strain = 1e-6;
+/// Forces out of balance in a trial that holds, over the loads of the smallest element. Round-off
+/// forbids a smaller residual than the other one.
+constexpr double balanced_share = 1e-2;
+constexpr double least_residual = 2e-11;
 
 /// Trials apply all loads in one step, in which partially filled elements must not carry loads
 /// that the soil cannot.
 const SoftStiffness soft_in_trials{.gradient = 1e-6};
-/// Displacement that counts as none when the iterations of a trial end, over that of the elastic
-/// body.
+/// Displacement that counts as none when the iterations of a trial end, over the elastic one.
 constexpr double still_share = 0.1;
 /// Speed of soil that slows down, over the elastic displacement in a unit of pseudo-time, that
 /// counts as none: forces of this share of the loads are out of balance then.
 constexpr double slow_share = 1e-3;
+/// Share of its loads with which soil counts that hardly moves.
+constexpr double idle_share = 1e-4;
 /// Elastic displacement, over its mean weighted by loads, beyond which hardly any soil holds a
 /// node. With moved soil this happens where one point has just entered an empty element.
 constexpr double loose_displacement = 100.0;
@@ -64,9 +70,9 @@ class StrengthReduction {
         kept_cohesion_(kept_cohesion),
         points_(without_stress(body.points)),
         skeleton_(body.skeleton),
-        held_(loads_.size(), Vector<Dim>::Zero()),
+        young_(skeleton_.size()),
         loose_(loads_.size(), 0) {
-    find_stiffness();
+    find_modulus();
   }
 
   SafetyFactor find() {
@@ -101,34 +107,49 @@ class StrengthReduction {
     set_strength(factor);
     const auto equilibrium = balance();
     NewtonSolution<Dim> solution =
-        EquilibriumSolver<Dim>(*equilibrium, kept_).solve(loads_, held_, limits_.newton);
+        EquilibriumSolver<Dim>(*equilibrium, kept_).solve(loads_, held_, newton_);
     SettledSoil<Dim> soil;
     soil.residual = solution.residuals.back();
     soil.iterations = solution.iterations();
-    const double far = limits_.runaway * elastic_max_;
-    if (!solution.converged) {
-      soil = PseudoTime<Dim>(*equilibrium, loads_)
-                 .settle(held_, {.tolerance = limits_.newton.tolerance,
-                                 .far = far,
-                                 .still = still_share * elastic_max_,
-                                 .slow = slow_share * elastic_max_,
-                                 .loose = loose_,
-                                 .max_iterations = limits_.settling_iterations});
-      soil.iterations += solution.iterations();
-    } else {
-      soil.end = largest_length<Dim>(solution.displacement, loose_) > far ? Settling::runs_away
-                                                                          : Settling::rests;
+    if (solution.converged) {
       soil.motion = solution.displacement;
-      for (std::size_t i = 0; i < elastic_.size(); ++i) soil.motion[i] -= elastic_[i];
+      for (std::size_t i = 0; i < held_.size(); ++i) soil.motion[i] -= held_[i];
+      soil.end = elastic_share(*equilibrium, soil.motion) > limits_.runaway ? Settling::runs_away
+                                                                            : Settling::rests;
       soil.displacement = std::move(solution.displacement);
+    } else {
+      soil = PseudoTime<Dim>(*equilibrium, loads_)
+                 .settle(held_,
+                         {.tolerance = newton_.tolerance,
+                          .far = limits_.runaway,
+                          .still = still_share,
+                          .slow = slow_share,
+                          .size = [&](const auto& way) { return elastic_share(*equilibrium, way); },
+                          .max_iterations = limits_.settling_iterations});
+      soil.iterations += solution.iterations();
     }
     note(factor, std::move(soil));
+  }
+
+  /// Largest length of a displacement over that of the elastic displacement under the loads of the
+  /// soil that moves. Deep ground below this soil hardly changes it.
+  [[nodiscard]] double elastic_share(const ForceBalance<Dim>& body, NodeVectors<Dim> way) {
+    way = without_loose(std::move(way));
+    const double largest = largest_length<Dim>(way);
+    if (largest == 0.0) return 0.0;
+    NodeVectors<Dim> loads = driving_;
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      loads[i] *= std::max(way[i].norm() / largest, idle_share);
+    }
+    Eigen::VectorXd elastic;
+    kept_->system.solve_nearly(body.unknowns().components(loads), elastic);
+    return largest / largest_length<Dim>(without_loose(body.unknowns().vectors(elastic)));
   }
 
   void note(double factor, SettledSoil<Dim> soil) {
     StrengthTrial trial{
         .factor = factor,
-        .displacement_max = largest_length<Dim>(soil.displacement, loose_) * stiffness_,
+        .displacement_max = largest_length<Dim>(without_loose(soil.displacement)) * real_share_,
         .residual = soil.residual,
         .iterations = soil.iterations};
     if (soil.end == Settling::rests) {
@@ -147,44 +168,83 @@ class StrengthReduction {
     result_.trials.push_back(trial);
   }
 
-  /// Finds a stiffness for which the elastic body keeps its shape.
-  void find_stiffness() {
-    const SkeletonLaw* const elastic = skeleton_law("elastic");
-    double young = 0.0;
-    for (const PointSkeleton& point : body_.skeleton) {
-      young = std::max(young, point.parameters.young);
-    }
+  /// Finds the modulus of trials, for which the elastic body keeps its shape.
+  void find_modulus() {
+    const double size = element_size(body_.grid);
     double force = 0.0;
     for (const Vector<Dim>& f : loads_) force += f.norm();
-    for (PointSkeleton& point : skeleton_) point.law = elastic;
-    // The first stiffness is such that the sum of all forces would hardly deform one element.
-    const double size = element_size(body_.grid);
-    stiffness_ = 1e6 * std::max(force / std::pow(size, Dim - 1), 1.0) / young;
-    elastic_max_ = elastic_displacement * size;
+    // With this modulus the sum of all forces would hardly deform one element.
+    const double first = 1e6 * std::max(force / std::pow(size, Dim - 1), 1.0);
+    double least = std::numeric_limits<double>::infinity();
+    for (const PointSkeleton& point : body_.skeleton) {
+      least = std::min(least, point.parameters.young);
+    }
+    for (std::size_t p = 0; p < young_.size(); ++p) {
+      young_[p] = first * body_.skeleton[p].parameters.young / least;
+    }
+    const NodeVectors<Dim> real = elastic_displacement();
+    std::ranges::fill(young_, first);
+    held_ = elastic_displacement();
+    find_loose(force);
+    const double largest = largest_length<Dim>(without_loose(held_));
+    if (largest > 0.0) {
+      const double share = elastic_strain * extent(body_.grid.mesh).norm() / largest;
+      real_share_ = largest_length<Dim>(without_loose(real)) / largest * first / least / share;
+      for (Vector<Dim>& u : held_) u *= share;
+      for (double& young : young_) young /= share;
+    }
+    set_strength(1.0);
+    Eigen::SparseMatrix<double> stiffness;
+    const auto equilibrium = balance();
+    equilibrium->share_pattern(kept_->pattern);
+    equilibrium->assemble_elastic(stiffness);
+    kept_->system.factorise(stiffness);
+    const auto& volume = body_.points.reference_volume;
+    const double load = force / std::reduce(volume.begin(), volume.end());  // N/m3
+    const double balanced = balanced_share * load * std::ranges::min(body_.grid.volume);
+    newton_.tolerance =
+        std::clamp(balanced / equilibrium->force_scale(), least_residual, limits_.newton.tolerance);
+  }
+
+  /// Displacement of the elastic body with the moduli `young_`; sets `driving_`.
+  NodeVectors<Dim> elastic_displacement() {
+    for (PointSkeleton& point : skeleton_) point.law = skeleton_law("elastic");
     set_strength(1.0);
     const auto equilibrium = balance();
-    elastic_ =
-        EquilibriumSolver<Dim>(*equilibrium).solve(loads_, held_, limits_.newton).displacement;
+    const NodeVectors<Dim> none(loads_.size(), Vector<Dim>::Zero());
+    equilibrium->displace(none, false);
+    driving_ = loads_;
+    const NodeVectors<Dim> of_pressure = equilibrium->forces();
+    for (std::size_t i = 0; i < driving_.size(); ++i) driving_[i] -= of_pressure[i];
+    const NewtonLimits accurate{.max_iterations = 3, .tolerance = 0.0};
+    NodeVectors<Dim> result =
+        EquilibriumSolver<Dim>(*equilibrium).solve(loads_, none, accurate).displacement;
+    for (std::size_t p = 0; p < skeleton_.size(); ++p) skeleton_[p].law = body_.skeleton[p].law;
+    return result;
+  }
+
+  void find_loose(double force) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < loads_.size(); ++i) sum += loads_[i].norm() * elastic_[i].norm();
+    for (std::size_t i = 0; i < loads_.size(); ++i) sum += loads_[i].norm() * held_[i].norm();
     for (std::size_t i = 0; i < loose_.size(); ++i) {
-      loose_[i] = elastic_[i].norm() * force > loose_displacement * sum ? 1 : 0;
+      loose_[i] = held_[i].norm() * force > loose_displacement * sum ? 1 : 0;
     }
     for (int i = 0; shapes_ && i < shapes_->size(); ++i) {
       for (const int end : shapes_->ends(i)) loose_[i] = std::max(loose_[i], loose_[end]);
     }
-    const double first = largest_length<Dim>(elastic_, loose_);
-    if (first > 0.0) {
-      stiffness_ *= first / elastic_max_;
-      for (Vector<Dim>& u : elastic_) u *= elastic_max_ / first;
+  }
+
+  [[nodiscard]] NodeVectors<Dim> without_loose(NodeVectors<Dim> vectors) const {
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+      if (loose_[i] != 0) vectors[i].setZero();
     }
-    for (std::size_t p = 0; p < skeleton_.size(); ++p) skeleton_[p].law = body_.skeleton[p].law;
+    return vectors;
   }
 
   void set_strength(double factor) {
     for (std::size_t p = 0; p < skeleton_.size(); ++p) {
       skeleton_[p].parameters = reduced_strength(body_.skeleton[p].parameters, factor);
-      skeleton_[p].parameters.young *= stiffness_;
+      skeleton_[p].parameters.young = young_[p];
       if (!kept_cohesion_.empty()) skeleton_[p].parameters.cohesion += kept_cohesion_[p];
     }
   }
@@ -215,13 +275,15 @@ class StrengthReduction {
   SolidPoints<Dim> points_;              ///< without stress
   std::vector<PointSkeleton> skeleton_;  ///< of the present trial
   std::shared_ptr<KeptStiffness<Dim>> kept_ = std::make_shared<KeptStiffness<Dim>>();
-  NodeVectors<Dim> held_;     ///< displacement in the trial of the largest factor that holds
-  double stiffness_ = 1.0;    ///< of trials over that of the soil
-  NodeVectors<Dim> elastic_;  ///< displacement of the elastic body in trials, m
-  std::vector<char> loose_;   ///< per node: see SettlingLimits
+  NodeVectors<Dim> driving_;  ///< loads and pore pressures on soil without stress, N
+  /// Displacement in the trial of the largest factor that holds, m; that of the elastic body first.
+  NodeVectors<Dim> held_;
+  NewtonLimits newton_ = limits_.newton;
+  std::vector<double> young_;  ///< per point: Young's modulus in trials, Pa
+  double real_share_ = 1.0;    ///< displacement of the real elastic body over that in trials
+  std::vector<char> loose_;    ///< per node: whether hardly any soil holds it
   SafetyFactor result_;
   std::set<double> undecided_;
-  double elastic_max_ = 0.0;  ///< largest displacement of the elastic body in trials, m
 };
 
 }  // namespace

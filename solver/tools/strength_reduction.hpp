@@ -18,10 +18,11 @@ struct StrengthReductionLimits {
   /// Smallest and largest factor of the search.
   double least = 1.0 / 64.0;
   double largest = 64.0;
-  /// Displacements above this multiple of those of the elastic body mean failure.
+  /// Displacements in a trial above this multiple of the elastic ones mean failure.
   double runaway = 200.0;
   /// The tolerance is small, because residuals are relative to forces at a strain of at least
-  /// `ForceBalance::least_strain`, up to a thousand times those of the stiff soil of the trials.
+  /// `ForceBalance::least_strain`, up to a thousand times those of the stiff soil of the trials. It
+  /// is smaller where it leaves more than a hundredth of an element's weight out of balance.
   NewtonLimits newton{.max_iterations = 60, .tolerance = 1e-9};
   /// Iterations of a trial in pseudo-time, after those of Newton's method.
   int settling_iterations = 600;
@@ -72,9 +73,10 @@ struct SafetyFactor {
 /// If it does neither, as near the limit, the search continues above and below this factor, and is
 /// given up after a few such trials.
 ///
-/// The factor does not depend on Young's modulus either. Trials multiply it by the same number in
-/// all soil, so that the body keeps its shape. Displacements are scaled to those of the real soil,
-/// to first order.
+/// The factor does not depend on Young's modulus either: all soil has the same one in trials, with
+/// which the body keeps its shape. Whether a trial holds is judged by the elastic displacement
+/// under the loads of the soil that moves, because that of the whole body may be that of deep or
+/// soft ground. Displacements are scaled to those of the real soil, to first order.
 ///
 /// \param body      stresses and `plastic_strain` of its points are not used
 /// \param loads     N; trials have linear or quadratic displacements as the loads have

@@ -312,7 +312,7 @@ Settling end_by_motion(double factor, double still, double slow = 0.0) {
   Equilibrium<2> equilibrium(m.body(), supports, 1);
   const NodeVectors<2> loads = m.weight(unit_weight);
   PseudoTime<2> time(equilibrium, loads);
-  const SettlingLimits limits{
+  const SettlingLimits<2> limits{
       .tolerance = 0.0, .far = 1.0, .still = still, .slow = slow, .max_iterations = 60};
   return time.settle(m.no_loads(), limits).end;
 }
@@ -368,6 +368,41 @@ TEST(VerticalCut, FailsAtItsHeight) {
   const double limit = 2.0 * fine.factor - coarse.factor;
   std::cout << "limit " << limit << std::endl;
   EXPECT_NEAR(limit, 3.776, 0.03 * 3.776);
+}
+
+/// The cut on ground of this depth, in two rows of cells.
+struct CutOnGround : PlaneModel {
+  CutOnGround(double depth, double young_share, const SkeletonLaw* law = nullptr)
+      : PlaneModel(mesh_of(depth), 1, mohr_coulomb_soil(25.0, 0.15 * unit_weight, 25.0)) {
+    support("bottom", Support::both);
+    support("left", Support::normal);
+    support("right", Support::normal);
+    for (int p = 0; p < points.size(); ++p) {
+      if (points.position[p][1] > 0.5) continue;
+      skeleton[p].parameters.young *= young_share;
+      if (law != nullptr) skeleton[p].law = law;
+    }
+  }
+  static Mesh<2> mesh_of(double depth) {
+    Mesh<2> mesh = VerticalCut::mesh_of(4);
+    for (Vector<2>& x : mesh.nodes) {
+      if (x[1] < 0.25) x[1] = 0.5 - depth + (depth - 0.25) * x[1] / 0.25;
+    }
+    return mesh;
+  }
+};
+
+TEST(VerticalCut, HasAFactorThatNeitherDepthNorStiffnessOfTheGroundChanges) {
+  const auto factor = [](const CutOnGround& m) {
+    return safety_factor(m, weight_of(m), 5e-3).factor;
+  };
+  const double shallow = factor(CutOnGround(2.0, 1.0));
+  const SkeletonLaw* const elastic = skeleton_law("elastic");
+  EXPECT_NEAR(factor(CutOnGround(80.0, 1.0)), shallow, 0.01 * shallow);
+  EXPECT_NEAR(factor(CutOnGround(2.0, 1e-4)), shallow, 0.01 * shallow);
+  const double rock = factor(CutOnGround(2.0, 1.0, elastic));
+  EXPECT_NEAR(factor(CutOnGround(80.0, 1.0, elastic)), rock, 0.01 * rock);
+  EXPECT_NEAR(factor(CutOnGround(2.0, 1e5, elastic)), rock, 0.01 * rock);
 }
 
 }  // namespace strength_reduction_test
