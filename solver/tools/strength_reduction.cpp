@@ -7,8 +7,6 @@
 #include <numeric>
 #include <set>
 
-#include "equilibrium/newton.hpp"
-#include "equilibrium/pseudo_time.hpp"
 #include "equilibrium/quadratic_equilibrium.hpp"
 
 namespace suffuse {
@@ -34,12 +32,6 @@ constexpr double idle_share = 1e-4;
 /// Elastic displacement, over its mean weighted by loads, beyond which hardly any soil holds a
 /// node. With moved soil this happens where one point has just entered an empty element.
 constexpr double loose_displacement = 100.0;
-
-/// Size of the smallest element, m.
-template <int Dim>
-double element_size(const Grid<Dim>& grid) {
-  return std::pow(std::ranges::min(grid.volume), 1.0 / Dim);
-}
 
 template <int Dim>
 std::vector<double> components(const NodeVectors<Dim>& vectors) {
@@ -70,7 +62,6 @@ class StrengthReduction {
         kept_cohesion_(kept_cohesion),
         points_(without_stress(body.points)),
         skeleton_(body.skeleton),
-        young_(skeleton_.size()),
         loose_(loads_.size(), 0) {
     find_modulus();
   }
@@ -147,17 +138,16 @@ class StrengthReduction {
   }
 
   void note(double factor, SettledSoil<Dim> soil) {
-    StrengthTrial trial{
-        .factor = factor,
-        .displacement_max = largest_length<Dim>(without_loose(soil.displacement)) * real_share_,
-        .residual = soil.residual,
-        .iterations = soil.iterations};
+    const double displacement = largest_length<Dim>(without_loose(soil.displacement));
+    result_.trials.push_back({.factor = factor,
+                              .end = soil.end,
+                              .displacement_max = displacement * modulus_ / mean_modulus_,
+                              .residual = soil.residual,
+                              .iterations = soil.iterations});
     if (soil.end == Settling::rests) {
-      trial.end = TrialEnd::holds;
       result_.holds = factor;
       held_ = std::move(soil.displacement);
     } else if (soil.end == Settling::runs_away) {
-      trial.end = TrialEnd::fails;
       result_.fails = factor;
       soil.motion.resize(body_.grid.mesh.nodes.size());  // without edges
       result_.mechanism = components(soil.motion);
@@ -165,33 +155,25 @@ class StrengthReduction {
       result_.undecided_node = shapes_ ? shapes_->ends(soil.worst_node)[0] : soil.worst_node;
       undecided_.insert(factor);
     }
-    result_.trials.push_back(trial);
   }
 
-  /// Finds the modulus of trials, for which the elastic body keeps its shape.
+  /// Finds the modulus of trials, for which the elastic body keeps its shape, and how exactly the
+  /// forces must balance.
   void find_modulus() {
-    const double size = element_size(body_.grid);
+    const double smallest = std::ranges::min(body_.grid.volume);
     double force = 0.0;
     for (const Vector<Dim>& f : loads_) force += f.norm();
-    // With this modulus the sum of all forces would hardly deform one element.
-    const double first = 1e6 * std::max(force / std::pow(size, Dim - 1), 1.0);
-    double least = std::numeric_limits<double>::infinity();
-    for (const PointSkeleton& point : body_.skeleton) {
-      least = std::min(least, point.parameters.young);
-    }
-    for (std::size_t p = 0; p < young_.size(); ++p) {
-      young_[p] = first * body_.skeleton[p].parameters.young / least;
-    }
-    const NodeVectors<Dim> real = elastic_displacement();
-    std::ranges::fill(young_, first);
-    held_ = elastic_displacement();
+    for (const PointSkeleton& point : body_.skeleton) mean_modulus_ += point.parameters.young;
+    mean_modulus_ /= static_cast<double>(body_.skeleton.size());
+    // With the first modulus the sum of all forces would hardly deform one element.
+    modulus_ = 1e6 * std::max(force / std::pow(smallest, 1.0 - 1.0 / Dim), 1.0);
+    find_elastic_displacement();
     find_loose(force);
     const double largest = largest_length<Dim>(without_loose(held_));
     if (largest > 0.0) {
       const double share = elastic_strain * extent(body_.grid.mesh).norm() / largest;
-      real_share_ = largest_length<Dim>(without_loose(real)) / largest * first / least / share;
       for (Vector<Dim>& u : held_) u *= share;
-      for (double& young : young_) young /= share;
+      modulus_ /= share;
     }
     set_strength(1.0);
     Eigen::SparseMatrix<double> stiffness;
@@ -200,27 +182,25 @@ class StrengthReduction {
     equilibrium->assemble_elastic(stiffness);
     kept_->system.factorise(stiffness);
     const auto& volume = body_.points.reference_volume;
-    const double load = force / std::reduce(volume.begin(), volume.end());  // N/m3
-    const double balanced = balanced_share * load * std::ranges::min(body_.grid.volume);
-    newton_.tolerance =
-        std::clamp(balanced / equilibrium->force_scale(), least_residual, limits_.newton.tolerance);
+    double load = 0.0;  // N/m3
+    for (const Vector<Dim>& f : driving_) load += f.norm();
+    load /= std::reduce(volume.begin(), volume.end());
+    newton_.tolerance = std::clamp(balanced_share * load * smallest / equilibrium->force_scale(),
+                                   least_residual, limits_.newton.tolerance);
   }
 
-  /// Displacement of the elastic body with the moduli `young_`; sets `driving_`.
-  NodeVectors<Dim> elastic_displacement() {
+  void find_elastic_displacement() {
     for (PointSkeleton& point : skeleton_) point.law = skeleton_law("elastic");
     set_strength(1.0);
     const auto equilibrium = balance();
-    const NodeVectors<Dim> none(loads_.size(), Vector<Dim>::Zero());
-    equilibrium->displace(none, false);
-    driving_ = loads_;
-    const NodeVectors<Dim> of_pressure = equilibrium->forces();
-    for (std::size_t i = 0; i < driving_.size(); ++i) driving_[i] -= of_pressure[i];
-    const NewtonLimits accurate{.max_iterations = 3, .tolerance = 0.0};
-    NodeVectors<Dim> result =
-        EquilibriumSolver<Dim>(*equilibrium).solve(loads_, none, accurate).displacement;
+    held_.assign(loads_.size(), Vector<Dim>::Zero());
+    equilibrium->displace(held_, false);
+    driving_ = equilibrium->forces();
+    for (std::size_t i = 0; i < driving_.size(); ++i) driving_[i] = loads_[i] - driving_[i];
+    held_ = EquilibriumSolver<Dim>(*equilibrium)
+                .solve(loads_, held_, {.max_iterations = 3, .tolerance = 0.0})
+                .displacement;
     for (std::size_t p = 0; p < skeleton_.size(); ++p) skeleton_[p].law = body_.skeleton[p].law;
-    return result;
   }
 
   void find_loose(double force) {
@@ -244,7 +224,7 @@ class StrengthReduction {
   void set_strength(double factor) {
     for (std::size_t p = 0; p < skeleton_.size(); ++p) {
       skeleton_[p].parameters = reduced_strength(body_.skeleton[p].parameters, factor);
-      skeleton_[p].parameters.young = young_[p];
+      skeleton_[p].parameters.young = modulus_;
       if (!kept_cohesion_.empty()) skeleton_[p].parameters.cohesion += kept_cohesion_[p];
     }
   }
@@ -279,8 +259,8 @@ class StrengthReduction {
   /// Displacement in the trial of the largest factor that holds, m; that of the elastic body first.
   NodeVectors<Dim> held_;
   NewtonLimits newton_ = limits_.newton;
-  std::vector<double> young_;  ///< per point: Young's modulus in trials, Pa
-  double real_share_ = 1.0;    ///< displacement of the real elastic body over that in trials
+  double mean_modulus_ = 0.0;  ///< Young's of the soil, Pa
+  double modulus_ = 0.0;       ///< Young's in trials, Pa
   std::vector<char> loose_;    ///< per node: whether hardly any soil holds it
   SafetyFactor result_;
   std::set<double> undecided_;

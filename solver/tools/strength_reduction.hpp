@@ -9,6 +9,7 @@
 #include "boundary/nodal_loads.hpp"
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/newton.hpp"
+#include "equilibrium/pseudo_time.hpp"
 
 namespace suffuse {
 
@@ -20,9 +21,8 @@ struct StrengthReductionLimits {
   double largest = 64.0;
   /// Displacements in a trial above this multiple of the elastic ones mean failure.
   double runaway = 200.0;
-  /// The tolerance is small, because residuals are relative to forces at a strain of at least
-  /// `ForceBalance::least_strain`, up to a thousand times those of the stiff soil of the trials. It
-  /// is smaller where it leaves more than a hundredth of an element's weight out of balance.
+  /// The tolerance is small, because residuals are relative to forces at a larger strain than that
+  /// of trials. It is smaller where it leaves more than 1 % of an element's weight out of balance.
   NewtonLimits newton{.max_iterations = 60, .tolerance = 1e-9};
   /// Iterations of a trial in pseudo-time, after those of Newton's method.
   int settling_iterations = 600;
@@ -30,17 +30,9 @@ struct StrengthReductionLimits {
   int most_undecided = 3;
 };
 
-/// End of a trial. If iterations run out, the motion may decide (`SettlingLimits::still`): soil
-/// need not fail because Newton's method finds no equilibrium.
-enum class TrialEnd {
-  holds,     ///< forces balance, or the soil keeps its place
-  fails,     ///< displacements ran away, or grow at a constant speed
-  undecided  ///< neither
-};
-
 struct StrengthTrial {
   double factor = 0.0;
-  TrialEnd end = TrialEnd::undecided;
+  Settling end = Settling::undecided;
   /// Largest displacement from zero stress, in equilibrium or at the end of the trial, m.
   double displacement_max = 0.0;
   double residual = 0.0;  ///< forces out of balance at the end, over all forces
@@ -73,10 +65,10 @@ struct SafetyFactor {
 /// If it does neither, as near the limit, the search continues above and below this factor, and is
 /// given up after a few such trials.
 ///
-/// The factor does not depend on Young's modulus either: all soil has the same one in trials, with
-/// which the body keeps its shape. Whether a trial holds is judged by the elastic displacement
-/// under the loads of the soil that moves, because that of the whole body may be that of deep or
-/// soft ground. Displacements are scaled to those of the real soil, to first order.
+/// The factor does not depend on Young's modulus either: all soil has the same one in trials. The
+/// motion of a trial is compared with the elastic displacement under the loads of the soil that
+/// moves; that of the whole body may be that of deep ground. Displacements are scaled to those of
+/// soil with the mean modulus, to first order.
 ///
 /// \param body      stresses and `plastic_strain` of its points are not used
 /// \param loads     N; trials have linear or quadratic displacements as the loads have

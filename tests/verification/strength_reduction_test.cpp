@@ -41,9 +41,9 @@ SafetyFactor safety_factor(const PlaneModel& m, const NodalLoads<2>& loads, doub
       find_safety_factor<2>(m.body(), supports, loads, pressure, m.threads, limits);
   for (const StrengthTrial& trial : result.trials) {
     std::cout << "  " << trial.factor
-              << (trial.end == TrialEnd::holds   ? " holds"
-                  : trial.end == TrialEnd::fails ? " fails"
-                                                 : " decides nothing")
+              << (trial.end == Settling::rests       ? " holds"
+                  : trial.end == Settling::runs_away ? " fails"
+                                                     : " decides nothing")
               << ", residual " << trial.residual << ", displacement " << trial.displacement_max
               << " m, iterations " << trial.iterations << "\n";
   }
@@ -264,7 +264,7 @@ TEST(Trial, ThatRunsOutOfIterationsIsNoFailure) {
   limits.newton.max_iterations = 1;
   limits.settling_iterations = 3;
   const SafetyFactor none = slope_factor_with(limits);
-  EXPECT_EQ(none.trials.back().end, TrialEnd::undecided);
+  EXPECT_EQ(none.trials.back().end, Settling::undecided);
   EXPECT_GT(none.trials.back().residual, limits.newton.tolerance);
   EXPECT_GE(none.undecided_node, 0);
   EXPECT_EQ(none.factor, 0.0);
