@@ -157,8 +157,7 @@ class StrengthReduction {
     }
   }
 
-  /// Finds the modulus of trials, for which the elastic body keeps its shape, and how exactly the
-  /// forces must balance.
+  /// Finds the modulus of trials and how exactly the forces must balance.
   void find_modulus() {
     const double smallest = std::ranges::min(body_.grid.volume);
     double force = 0.0;
