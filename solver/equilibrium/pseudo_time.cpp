@@ -181,16 +181,14 @@ void PseudoTime<Dim>::judge_motion(const SettlingLimits<Dim>& limits) {
   const Sample& middle = samples_.back();
   const double third_quarter = middle.time - first.time;
   const double last_quarter = time_ - middle.time;
-  if (limits.still == 0.0 || std::min(third_quarter, last_quarter) < long_enough) return;
-  const NodeVectors<Dim> all = way_from(first.displacement);
+  if (limits.slow == 0.0 || std::min(third_quarter, last_quarter) < long_enough) return;
   const NodeVectors<Dim> late = way_from(middle.displacement);
-  NodeVectors<Dim> early = all;
+  NodeVectors<Dim> early = way_from(first.displacement);
   for (std::size_t i = 0; i < early.size(); ++i) early[i] -= late[i];
   const double speed = limits.size(late) / last_quarter;
-  const bool slows_down = speed < constant_speed * limits.size(early) / third_quarter;
-  if (limits.size(all) <= limits.still || (slows_down && speed <= limits.slow)) {
+  if (speed <= limits.slow) {
     soil_.end = Settling::rests;
-  } else if (!slows_down) {
+  } else if (speed >= constant_speed * limits.size(early) / third_quarter) {
     soil_.end = Settling::runs_away;
   }
 }

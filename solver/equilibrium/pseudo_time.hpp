@@ -30,12 +30,8 @@ struct SettlingLimits {
   double tolerance = 1e-9;
   /// Size of a displacement from the start that counts as running away.
   double far = 0.0;
-  /// Size of the displacement in the second half of the iterations up to which soil counts as at
-  /// rest when they end; soil that moved farther and did not slow down runs away. 0: it is not
-  /// judged so.
-  double still = 0.0;
-  /// Speed, as a size per unit of pseudo-time, up to which soil that slows down then counts as at
-  /// rest.
+  /// Speed, as a size per unit of pseudo-time, up to which soil counts as at rest when the
+  /// iterations end; faster soil that did not slow down runs away. 0: it is not judged so.
   double slow = 0.0;
   /// Size of a displacement, m: of the largest of its nodes, m, or over a length of the caller's.
   std::function<double(const NodeVectors<Dim>&)> size = largest_length<Dim>;

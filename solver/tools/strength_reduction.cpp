@@ -22,11 +22,9 @@ constexpr double least_residual = 2e-11;
 /// Trials apply all loads in one step, in which partially filled elements must not carry loads
 /// that the soil cannot.
 const SoftStiffness soft_in_trials{.gradient = 1e-6};
-/// Displacement that counts as none when the iterations of a trial end, over the elastic one.
-constexpr double still_share = 0.1;
-/// Speed of soil that slows down, over the elastic displacement in a unit of pseudo-time, that
-/// counts as none: forces of this share of the loads are out of balance then.
-constexpr double slow_share = 1e-3;
+/// Speed of soil that counts as at rest when the iterations of a trial end, over the elastic
+/// displacement in a unit of pseudo-time: forces of this share of the loads are out of balance.
+constexpr double slow_share = 3e-4;
 /// Share of its loads with which soil counts that hardly moves.
 constexpr double idle_share = 1e-4;
 /// Elastic displacement, over its mean weighted by loads, beyond which hardly any soil holds a
@@ -113,7 +111,6 @@ class StrengthReduction {
                  .settle(held_,
                          {.tolerance = newton_.tolerance,
                           .far = limits_.runaway,
-                          .still = still_share,
                           .slow = slow_share,
                           .size = [&](const auto& way) { return elastic_share(*equilibrium, way); },
                           .max_iterations = limits_.settling_iterations});

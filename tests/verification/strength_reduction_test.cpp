@@ -302,7 +302,8 @@ TEST(PseudoTime, MovesSoilThatFailsAtAConstantSpeed) {
 }
 
 /// How 60 iterations end that neither balance the forces nor move the soil far enough.
-Settling end_by_motion(double factor, double still, double slow = 0.0) {
+/// \param slow  m per unit of pseudo-time
+Settling end_by_motion(double factor, double slow) {
   SlopeTwoToOne m(8, mohr_coulomb_soil(20.0, 0.05 * unit_weight, 0.0));
   for (PointSkeleton& point : m.skeleton) {
     point.parameters = reduced_strength(point.parameters, factor);
@@ -312,19 +313,18 @@ Settling end_by_motion(double factor, double still, double slow = 0.0) {
   Equilibrium<2> equilibrium(m.body(), supports, 1);
   const NodeVectors<2> loads = m.weight(unit_weight);
   PseudoTime<2> time(equilibrium, loads);
-  const SettlingLimits<2> limits{
-      .tolerance = 0.0, .far = 1.0, .still = still, .slow = slow, .max_iterations = 60};
+  const SettlingLimits<2> limits{.tolerance = 0.0, .far = 1.0, .slow = slow, .max_iterations = 60};
   return time.settle(m.no_loads(), limits).end;
 }
 
 TEST(PseudoTime, DecidesByTheMotionWhenItsIterationsEnd) {
-  constexpr double tenth_of_elastic = 7e-12;  // m
-  EXPECT_EQ(end_by_motion(1.5, tenth_of_elastic), Settling::runs_away);
-  EXPECT_EQ(end_by_motion(1.5, 1e-6), Settling::rests) << "it moves by 5e-9 m";
-  EXPECT_EQ(end_by_motion(1.5, 0.0), Settling::undecided) << "no motion counts as rest";
-  EXPECT_EQ(end_by_motion(1.3, tenth_of_elastic), Settling::undecided) << "its time is short";
-  EXPECT_EQ(end_by_motion(1.41, tenth_of_elastic), Settling::undecided) << "it slows down";
-  EXPECT_EQ(end_by_motion(1.41, tenth_of_elastic, 0.01 * tenth_of_elastic), Settling::rests);
+  constexpr double elastic = 7e-11;  // m
+  EXPECT_EQ(end_by_motion(1.5, 1e-4 * elastic), Settling::runs_away);
+  EXPECT_EQ(end_by_motion(1.5, elastic), Settling::rests) << "so fast soil counts as at rest";
+  EXPECT_EQ(end_by_motion(1.5, 0.0), Settling::undecided) << "no speed counts as rest";
+  EXPECT_EQ(end_by_motion(1.3, 1e-4 * elastic), Settling::undecided) << "its time is short";
+  EXPECT_EQ(end_by_motion(1.41, 1e-6 * elastic), Settling::undecided) << "it slows down";
+  EXPECT_EQ(end_by_motion(1.41, 1e-3 * elastic), Settling::rests);
 }
 
 /// A vertical cut of height 1 m; the soil behind it and below it has the same extent.
