@@ -60,8 +60,8 @@ StartStress settle_slowly(const Grid<Dim>& grid, const std::vector<PointSkeleton
                           const Supports<Dim>& supports, const StartLoads<Dim>& loads,
                           SolidPoints<Dim>& points, int threads) {
   SettlingLimits<Dim> limits{.tolerance = NewtonLimits().tolerance,
-                        .far = far_share * extent(grid.mesh).norm(),
-                        .max_iterations = max_slow_iterations};
+                             .far = far_share * extent(grid.mesh).norm(),
+                             .max_iterations = max_slow_iterations};
   StepEquilibrium<Dim> step(grid, points, skeleton, supports, threads);
   step.set_weight(loads.weight);
   while (limits.max_iterations > 0) {
