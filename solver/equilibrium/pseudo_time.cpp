@@ -21,8 +21,8 @@ constexpr int max_step_iterations = 8;
 constexpr double good_iterations = 4.0;
 /// Lengths of consecutive steps differ by this factor at most.
 constexpr double growth = 4.0;
-/// The motion decides if the last two quarters of the iterations last at least this long each: in
-/// both together a force of 1e-4 of the loads moves soil by a tenth of its elastic displacement.
+/// The motion decides if the last two quarters of the iterations last at least this long each:
+/// elastic soil has come to rest in a small part of this time.
 constexpr double long_enough = 500.0;
 /// Soil whose speed in the last quarter is at least this share of that in the third does not slow
 /// down.

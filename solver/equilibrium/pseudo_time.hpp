@@ -12,11 +12,12 @@
 namespace suffuse {
 
 enum class Settling {
-  rests,      ///< forces balance
-  runs_away,  ///< displacements have exceeded the limit
+  rests,      ///< forces balance, or the soil moves very slowly
+  runs_away,  ///< displacements have exceeded the limit, or grow at a constant speed
   undecided   ///< neither, when steps or iterations ran out
 };
 
+/// Length of the longest vector.
 template <int Dim>
 double largest_length(const NodeVectors<Dim>& vectors) {
   double result = 0.0;
@@ -33,7 +34,8 @@ struct SettlingLimits {
   /// Speed, as a size per unit of pseudo-time, up to which soil counts as at rest when the
   /// iterations end; faster soil that did not slow down runs away. 0: it is not judged so.
   double slow = 0.0;
-  /// Size of a displacement, m: of the largest of its nodes, m, or over a length of the caller's.
+  /// The size of a displacement, to which `far` and `slow` refer: by default that of the node that
+  /// moves most, m. A caller may divide it by a length.
   std::function<double(const NodeVectors<Dim>&)> size = largest_length<Dim>;
   /// Iterations of Newton's method, in all steps.
   int max_iterations = 400;

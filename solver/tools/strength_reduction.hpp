@@ -22,7 +22,7 @@ struct StrengthReductionLimits {
   /// Displacements in a trial above this multiple of the elastic ones mean failure.
   double runaway = 200.0;
   /// The tolerance is small, because residuals are relative to forces at a larger strain than that
-  /// of trials. It is smaller where it leaves more than 1 % of an element's weight out of balance.
+  /// of trials. Trials take a smaller one if this leaves 1 % of an element's weight out of balance.
   NewtonLimits newton{.max_iterations = 60, .tolerance = 1e-9};
   /// Iterations of a trial in pseudo-time, after those of Newton's method.
   int settling_iterations = 600;
@@ -67,8 +67,8 @@ struct SafetyFactor {
 ///
 /// The factor does not depend on Young's modulus either: all soil has the same one in trials. The
 /// motion of a trial is compared with the elastic displacement under the loads of the soil that
-/// moves; that of the whole body may be that of deep ground. Displacements are scaled to those of
-/// soil with the mean modulus, to first order.
+/// moves, because the loads of deep ground cause a much larger one. Displacements are scaled to
+/// those of soil with the mean modulus, to first order.
 ///
 /// \param body      stresses and `plastic_strain` of its points are not used
 /// \param loads     N; trials have linear or quadratic displacements as the loads have
