@@ -90,7 +90,8 @@ void Failure<Dim>::finish_step(double time, double next_step, const SoilKinetics
 template <int Dim>
 void Failure<Dim>::finish_motion(double duration, const SoilKinetics& soil) {
   rested_ = soil.is_rest() ? rested_ + duration : 0.0;
-  if (rested_ > soil.soil.time_of_fall()) solid_.end_inertia(repeated_.held_share());
+  if (rested_ > soil.soil.time_of_fall())
+    solid_.end_inertia(repeated_.held_share() * soil.load_share);
   counted_time_ += duration;
   if (++counted_steps_ < stuck_steps) return;
   is_stuck_ = counted_time_ < stuck_time * solid_.time_of_fall();

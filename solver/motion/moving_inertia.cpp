@@ -1,56 +1,86 @@
 /// The inertia of a moving skeleton: masses and velocities.
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "motion/held_by_inertia.hpp"
 #include "motion/moving_skeleton.hpp"
 #include "physics/head.hpp"
+#include "solid/masses_in_motion.hpp"
 
 namespace suffuse {
 namespace {
 
+/// Soil is compared with all ground, but with at most this multiple of what moves: of its weight,
+/// of its loads and of its height.
+constexpr double ground_at_most = 10.0;
+
 /// Mass, load and height that the motion of soil is compared with.
-/// \param mass  that has inertia, kg per point
+/// \param mass    that has inertia, kg per point
+/// \param moving  the part of it in motion
 template <int Dim>
-SoilExtent extent_of(const SolidPoints<Dim>& points, const Supports<Dim>& supports,
-                     const Scene& scene, const std::vector<double>& mass,
+SoilExtent extent_of(const SolidPoints<Dim>& points, const Scene& scene,
+                     const std::vector<double>& mass, const std::vector<double>& moving,
                      const NodeVectors<Dim>& loads) {
-  SoilExtent extent;
-  for (const double m : mass) extent.mass += m;
+  const double all = std::reduce(mass.begin(), mass.end());
+  const double part = ground_at_most * std::reduce(moving.begin(), moving.end());
+  SoilExtent extent{.mass = std::min(all, part)};
   extent.load = acceleration(scene.gravity) * extent.mass;
   if (!has_gravity(scene.gravity)) {
     for (const Vector<Dim>& force : loads) extent.load += force.norm();
+    if (part < all) extent.load *= part / all;
   }
   const Vector<Dim> down = downwards<Dim>(scene.gravity);
-  int top = -1;
-  int bottom = -1;
-  for (int p = 0; p < points.size(); ++p) {
-    if (supports.is_rigid(points.element[p])) continue;
-    const double depth = points.position[p].dot(down);
-    if (top < 0 || depth < points.position[top].dot(down)) top = p;
-    if (bottom < 0 || depth >= points.position[bottom].dot(down)) bottom = p;
-  }
-  if (top >= 0) extent.height = (points.position[bottom] - points.position[top]).dot(down);
+  extent.height = std::min(height_of_block(points, down, mass),
+                           ground_at_most * height_of_block(points, down, moving));
   return extent;
 }
 
-/// Norm of the loads of a step; with gravity that of the weight of the nodes, N.
+/// Kinetics of a step in equilibrium. `mass`: kg per point; `before`: places at its start, m.
 template <int Dim>
-double load_norm(const Scene& scene, const MotionStep<Dim>& step) {
-  if (!has_gravity(scene.gravity)) return norm<Dim>(step.loads);
-  double squared = 0.0;
-  for (const double mass : step.nodes.mass) squared += mass * mass;
-  return acceleration(scene.gravity) * std::sqrt(squared);
+SoilKinetics kinetics_of(const SolidPoints<Dim>& points, const Scene& scene,
+                         const MotionStep<Dim>& step, const std::vector<double>& mass,
+                         const std::vector<Vector<Dim>>& before) {
+  SoilKinetics found;
+  std::vector<double> way(mass.size());
+  for (std::size_t p = 0; p < way.size(); ++p) {
+    way[p] = (points.position[p] - before[p]).norm();
+    found.energy += 0.5 * mass[p] * std::pow(way[p] / step.forcing.duration, 2);
+  }
+  found.soil = extent_of(points, scene, mass, masses_in_motion(mass, way), step.loads);
+  return found;
 }
 
-/// Kinetic energy of points that have moved in a time, J; `mass` in kg, `before` and `after` in m.
+/// Loads of the nodes in a step; with gravity the weight of the nodes, N.
 template <int Dim>
-double kinetic_energy(const std::vector<double>& mass, const std::vector<Vector<Dim>>& before,
-                      const std::vector<Vector<Dim>>& after, double duration) {
-  double sum = 0.0;
-  for (std::size_t p = 0; p < mass.size(); ++p)
-    sum += mass[p] * (after[p] - before[p]).squaredNorm();
-  return 0.5 * sum / (duration * duration);
+std::vector<double> node_loads(const Scene& scene, const MotionStep<Dim>& step) {
+  std::vector<double> load = step.nodes.mass;
+  for (std::size_t i = 0; i < load.size(); ++i)
+    load[i] =
+        has_gravity(scene.gravity) ? acceleration(scene.gravity) * load[i] : step.loads[i].norm();
+  return load;
+}
+
+/// Forces of inertia over the loads.
+template <int Dim>
+double inertia_share(const MotionStep<Dim>& step, const std::vector<double>& load) {
+  const double squared = std::inner_product(load.begin(), load.end(), load.begin(), 0.0);
+  return squared > 0.0 ? step.equilibrium->equilibrium().inertia_norm() / std::sqrt(squared) : 0.0;
+}
+
+/// Norm of the loads that the motion of soil is compared with, over that of `load`, of all nodes.
+/// A node bears loads for the soil in motion by its share of the mass.
+/// \param all, moving  mass of each node, and the part of it in motion, kg
+double share_of_loads(const std::vector<double>& load, const std::vector<double>& all,
+                      const std::vector<double>& moving) {
+  double whole = 0.0;
+  double part = 0.0;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    whole += load[i] * load[i];
+    if (moving[i] > 0.0) part += std::pow(moving[i] / all[i] * load[i], 2);
+  }
+  return part < whole ? std::min(ground_at_most * std::sqrt(part / whole), 1.0) : 1.0;
 }
 
 /// Mass of soil with the liquid in its pores, per node, kg.
@@ -95,20 +125,22 @@ std::vector<double> MovingSkeleton<Dim>::moved_masses(const MotionStep<Dim>& ste
 template <int Dim>
 SoilKinetics MovingSkeleton<Dim>::kinetics(const MotionStep<Dim>& step,
                                            const std::vector<Vector<Dim>>& before) const {
-  const std::vector<double> mass = moved_masses(step);
-  return {.energy = kinetic_energy<Dim>(mass, before, points_.position, step.forcing.duration),
-          .soil = extent_of(points_, supports_, this->soils().scene(), mass, step.loads)};
+  return kinetics_of(points_, this->soils().scene(), step, moved_masses(step), before);
 }
 
 template <int Dim>
 SoilKinetics MovingSkeleton<Dim>::take_velocities(const MotionStep<Dim>& step) {
   const Scene& scene = this->soils().scene();
-  const double loads = load_norm(scene, step);
-  const double share = loads > 0.0 ? step.equilibrium->equilibrium().inertia_norm() / loads : 0.0;
-  const double energy =
-      inertia_.take(this->grid_, points_, step.nodes, step.equilibrium->displacement(), step.mass,
-                    step.forcing.duration, step.motion.travel, share);
-  return {energy, share, extent_of(points_, supports_, scene, step.mass, step.loads)};
+  const std::vector<double> load = node_loads(scene, step);
+  SoilKinetics found{.inertia_share = inertia_share(step, load)};
+  const NodeVectors<Dim>& displacement = step.equilibrium->displacement();
+  found.energy = inertia_.take(this->grid_, points_, step.nodes, displacement, step.mass,
+                               step.forcing.duration, step.motion.travel, found.inertia_share);
+  const std::vector<double> moving = masses_in_motion(step.mass, inertia_.way());
+  const NodalMotion<Dim> nodes = inertia_.nodes(this->grid_, points_, moving);
+  found.soil = extent_of(points_, scene, step.mass, moving, step.loads);
+  found.load_share = share_of_loads(load, step.nodes.mass, nodes.mass);
+  return found;
 }
 
 template class MovingSkeleton<2>;

@@ -333,8 +333,7 @@ std::pair<SolidMotion, SoilKinetics> MovingSkeleton<Dim>::commit(MotionStep<Dim>
   const std::vector<Vector<Dim>> place = points_.position;
   move_points(this->grid_, equilibrium.skeleton(), equilibrium.displacement(),
               equilibrium.law_increments(), points_, this->threads_);
-  SoilKinetics found;
-  if (!inertia_.acts()) found = kinetics(step, place);
+  const SoilKinetics found = inertia_.acts() ? SoilKinetics() : kinetics(step, place);
   if (inertia_.acts()) space_points(this->grid_, supports_, equilibrium.displacement(), points_);
   if (!step.stays) fill_holes(this->grid_, supports_, points_, start_);
   if (!inertia_.acts()) {

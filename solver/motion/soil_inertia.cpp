@@ -1,6 +1,5 @@
 #include "motion/soil_inertia.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace suffuse {
@@ -9,6 +8,7 @@ template <int Dim>
 void SoilInertia<Dim>::begin(int point_count) {
   *this = {};
   velocities_ = PointVelocities<Dim>(point_count);
+  way_.assign(point_count, 0.0);
 }
 
 template <int Dim>
@@ -24,24 +24,10 @@ double SoilInertia<Dim>::take(const Grid<Dim>& grid, const SolidPoints<Dim>& poi
   NodeVectors<Dim> velocity = displacement;
   for (Vector<Dim>& v : velocity) v /= duration;
   velocities_.take(grid, points, std::move(velocity), nodes.mass);
+  for (int p = 0; p < points.size(); ++p) way_[p] += velocities_.velocity(p).norm() * duration;
   rate_ = travel / duration;
   share_ = share;
   return velocities_.kinetic_energy(mass);
-}
-
-double SoilExtent::time_of_fall() const {
-  return std::sqrt(2.0 * height * mass / load);
-}
-
-bool SoilKinetics::is_rest() const {
-  constexpr double small_share = 1e-2;
-  constexpr double small_energy = 1e-6;
-  return inertia_share < small_share && energy < small_energy * soil.load * soil.height;
-}
-
-bool SoilKinetics::is_slide() const {
-  constexpr double large_energy = 1e-4;
-  return energy > large_energy * soil.load * soil.height;
 }
 
 template class SoilInertia<2>;

@@ -6,32 +6,9 @@
 
 #include "equilibrium/equilibrium.hpp"
 #include "equilibrium/point_velocities.hpp"
+#include "equilibrium/soil_kinetics.hpp"
 
 namespace suffuse {
-
-/// Mass, load and height that the motion of soil is compared with.
-struct SoilExtent {
-  double mass = 0.0;    ///< kg
-  double load = 0.0;    ///< its weight; without gravity, the loads of all nodes, N
-  double height = 0.0;  ///< along gravity, m
-
-  /// Time in which the load would move the soil by its height, s.
-  [[nodiscard]] double time_of_fall() const;
-};
-
-/// Kinetics of soil in a step.
-struct SoilKinetics {
-  double energy = 0.0;         ///< J
-  double inertia_share = 0.0;  ///< forces of inertia over the loads
-  SoilExtent soil = {};
-
-  /// Whether soil is slow enough for equilibrium: inertia carries less than 1 % of the loads, and
-  /// the kinetic energy is less than 1e-6 of the loads times the height.
-  [[nodiscard]] bool is_rest() const;
-  /// Whether soil in equilibrium is so fast that inertia governs how far it moves: the kinetic
-  /// energy is more than 1e-4 of the loads times the height.
-  [[nodiscard]] bool is_slide() const;
-};
 
 template <int Dim>
 class SoilInertia {
@@ -62,16 +39,21 @@ class SoilInertia {
   double take(const Grid<Dim>& grid, const SolidPoints<Dim>& points, const NodalMotion<Dim>& nodes,
               const NodeVectors<Dim>& displacement, const std::vector<double>& mass,
               double duration, double travel, double share);
-
+  /// Way of each point since inertia started, m.
+  [[nodiscard]] const std::vector<double>& way() const { return way_; }
   /// Forces of inertia over the loads in the last step; 0 without inertia.
   [[nodiscard]] double share() const { return share_; }
   /// Reorders the points: point order[k] becomes point k.
-  void reorder(const std::vector<int>& order) { velocities_.reorder(order); }
+  void reorder(const std::vector<int>& order) {
+    velocities_.reorder(order);
+    suffuse::reorder(order, way_);
+  }
 
-  void archive(auto& archive) { archive(velocities_, rate_, share_); }
+  void archive(auto& archive) { archive(velocities_, way_, rate_, share_); }
 
  private:
   PointVelocities<Dim> velocities_;  ///< empty without inertia
+  std::vector<double> way_;          ///< see `way`
   double rate_ = 0.0;                ///< travel over the heights of elements per time, 1/s
   double share_ = 0.0;               ///< see `share`
 };

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Version of the bytes of a state. Increase it whenever the list of an `archive` changes.
-constexpr std::int64_t state_layout = 23;
+constexpr std::int64_t state_layout = 24;
 
 /// FNV-1a (Fowler, Noll, Vo) on eight bytes at a time, with the high bits mixed into the low ones.
 class Digest {

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "solid/masses_in_motion.hpp"
 #include "solver/solid_model.hpp"
 
 namespace suffuse {
@@ -170,6 +171,43 @@ TEST(Failure, SoilThatHasRestedForAFallHasNoInertiaAnyMore) {
   const double from = time;
   while (soil.failure.has_inertia() && time < 10.0) step(moving(1e-7, 1e-3));
   EXPECT_NEAR(time - from, fall, 2.0 * dt);
+}
+
+/// A bank that slides on ground of any mass, which hardly moves.
+TEST(MassesInMotion, AreOfTheSoilThatSlides) {
+  constexpr double mean = 38.0 / 18.0;  // of the ways, by mass times way
+  for (const double ground : {0.0, 1e4, 1e9}) {
+    const std::vector<double> moving =
+        masses_in_motion({4e3, 4e3, 2e3, ground}, {1.0, 2.0, 3.0, 1e-8});
+    EXPECT_NEAR(moving[0], 4e3 / mean, 4.0);
+    EXPECT_NEAR(moving[1], 4e3 * 2.0 / mean, 4.0);
+    EXPECT_EQ(moving[2], 2e3);
+    EXPECT_LT(moving[3], 5.0);
+  }
+}
+
+TEST(MassesInMotion, AreAllWhereAllMovesOrNothing) {
+  for (const double way : {0.0, 1e-12, 3.0}) {
+    const std::vector<double> moving = masses_in_motion({1.0, 5.0, 0.0}, {way, way, way});
+    EXPECT_DOUBLE_EQ(moving[0], 1.0);
+    EXPECT_DOUBLE_EQ(moving[1], 5.0);
+    EXPECT_EQ(moving[2], 0.0);
+  }
+}
+
+/// Layers of points of any height make up a column.
+TEST(MassesInMotion, HaveTheHeightOfABlock) {
+  const Vector<2> down(0.6, -0.8);
+  for (const int layers : {1, 2, 7}) {
+    SolidPoints<2> column;
+    const double size = 3.5 / layers;
+    for (int p = 0; p < layers; ++p) {
+      column.position.emplace_back(Vector<2>(40.0, -7.0) + (p + 0.5) * size * down);
+      column.volume.push_back(size * size);
+    }
+    EXPECT_NEAR(height_of_block(column, down, std::vector<double>(layers, 2e3)), 3.5, 1e-9);
+    EXPECT_EQ(height_of_block(column, down, std::vector<double>(layers, 0.0)), 0.0);
+  }
 }
 
 }  // namespace failure_test
