@@ -17,6 +17,10 @@ namespace {
 /// iteration of undrained soil may not converge; with more it is slower
 /// (docs/theory/moving-soil.md, "Flow and motion").
 constexpr double held_storage = 1.5;
+/// Stabilisation of the pressures at faces over this storage: in triangles of equal sides h a
+/// mobility for the change of the pressure of h^2/(4 E_oed) (Rodrigo, Gaspar, Hu and Zikatanov,
+/// Comput. Methods Appl. Mech. Eng. 298 (2016) 183).
+constexpr double stabilisation = 3.0;
 /// Share of this storage that remains where soil with inertia has a mobility instead: it fixes the
 /// level of the pressure.
 constexpr double share_with_mobility = 1e-3;
@@ -86,6 +90,18 @@ double largest_stress(const MovingSkeleton<Dim>& solid) {
 std::vector<double> risen(std::vector<double> pressure, const Eigen::VectorXd& rise) {
   for (std::size_t e = 0; e < pressure.size(); ++e) pressure[e] += rise[e];
   return pressure;
+}
+
+/// Gives the flow the storage of held soil, m3/Pa per element. It acts on mean pressures. Where
+/// soil retains liquid, pressures at faces follow these (docs/theory/moving-soil.md, "Flow and
+/// motion").
+template <int Dim>
+void give_storage(const std::vector<double>& held, bool retains, FlowForcing<Dim>& forcing) {
+  forcing.mean_storage = held;
+  if (!retains) return;
+  forcing.side_storage = held;
+  for (double& storage : forcing.side_storage) storage *= 1.0 + stabilisation;
+  for (double& storage : forcing.mean_storage) storage *= -stabilisation;
 }
 
 Unsolved no_equilibrium(const std::string& where, int worst_node) {
@@ -179,19 +195,19 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
   const FlowCoefficients<Dim> at_start = forcing.coefficients;
   if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
   const Eigen::VectorXd acts = acting_shares(soils, air, at_start.porosity, pressure);
-  forcing.mean_storage = held_by_soil(acts, forcing.mean_mobility, dt);
+  const std::vector<double> held = held_by_soil(acts, forcing.mean_mobility, dt);
+  give_storage(held, !air.empty(), forcing);
   AndersonMixing mixing(memory);
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const Agreement agreement = agreement_at(
-      largest_of_soil(pressure_on_solid(grid_, soils, pressure, at_start.porosity, air),
-                      forcing.mean_storage),
+      largest_of_soil(pressure_on_solid(grid_, soils, pressure, at_start.porosity, air), held),
       start.tolerance);
   Eigen::VectorXd elsewhere = Eigen::VectorXd::Zero(rise.size());  // rise at faces without soil
   Approach approach;
   while (approach.begins()) {
     ++step.iterations;
     step.motion->reduction = forcing.reduction = approach.is_near ? 0.0 : reduction;
-    const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
+    const Eigen::VectorXd of_elements = at_elements(rise, held);
     const std::vector<double> acting =
         pressure_on_solid(grid_, soils, risen(pressure, of_elements), at_start.porosity, air);
     const SolidMotion& motion = solid_.solve(*step.motion, acting);
@@ -200,7 +216,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
       std::optional<Eigen::VectorXd> other = Eigen::VectorXd::Zero(pressure.size());
       if (!approach.guesses(rise)) other = undrained_rise(*step.motion, acting, of_elements);
       if (!other) return no_equilibrium("", step.motion->motion.worst_node);
-      rise = at_faces(*other, forcing.mean_storage);
+      rise = at_faces(*other, held);
       mixing = AndersonMixing(memory);
       continue;
     }
@@ -208,13 +224,13 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
     const std::vector<double> moved = !soils.air_moves()
                                           ? motion.face_volume
                                           : without_air(motion, start.state, at_start, forcing);
-    forcing.source = source_of(moved, own, forcing.mean_storage, of_elements, dt);
+    forcing.source = source_of(moved, own, held, of_elements, dt);
     forcing.expected_rise = as_std_vector(rise + elsewhere);
     MixedStep<Dim> found = scheme.step(start.state, dt, {&forcing});
     const Eigen::VectorXd all = rise_between(start.state.face_pressure, found.end.face_pressure);
-    const Eigen::VectorXd rose = at_soil(all, forcing.mean_storage);
+    const Eigen::VectorXd rose = at_soil(all, held);
     elsewhere = all - rose;
-    const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
+    const Eigen::VectorXd new_of_elements = at_elements(rose, held);
     const Eigen::VectorXd differs = acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs();
     const double off = differs.maxCoeff(&approach.worst_element);
     const double allowed = agreement.allowed(largest(acts.cwiseProduct(new_of_elements)));

@@ -212,6 +212,8 @@ struct MixedStage {
       if (!forcing.force.empty()) drive[e] += forcing.force[e];
       if (inertia > 0.0) drive[e] += inertia * base.velocity[e];
       storage[e] = c.water_volume[e] / (model.settings.bulk_modulus * (Dim + 1) * duration);
+      if (!forcing.side_storage.empty())
+        storage[e] += forcing.side_storage[e] / ((Dim + 1) * duration);
       if (expected_gradient.empty()) return;
       expected_gradient[e] = model.pressure_gradient(e, base.face_pressure, forcing.expected_rise);
     });

@@ -87,9 +87,8 @@ void level_sealed_pieces(const MixedStage<Dim>& stage, const std::vector<double>
     if (piece[e] < 0) continue;
     for (const int f : grid.element_face[e]) stored_sum[piece[e]].add(stage.storage[e] * rise[f]);
     capacity_sum[piece[e]].add((Dim + 1) * stage.storage[e]);
-    if (stage.mean_storage.empty()) continue;
     stored_sum[piece[e]].add(stage.stored_in_mean(e, [&](int f) { return rise[f]; }));
-    capacity_sum[piece[e]].add(stage.mean_storage[e]);
+    if (!stage.mean_storage.empty()) capacity_sum[piece[e]].add(stage.mean_storage[e]);
   }
   for (std::size_t p = 0; p < surplus.size(); ++p) {
     const int root = stage.faces.correction().sealed_root()[p];

@@ -117,9 +117,7 @@ struct StageEnd {
       // Difference between the air by the pressures and the air by the fluxes: round-off, or what
       // the iteration missed in a piece without an outlet.
       double missing = -stage.net_source[e] * stage.duration;
-      if (!stage.mean_storage.empty()) {
-        missing += stage.duration * stage.stored_in_mean(e, [&](int f) { return rise[f]; });
-      }
+      missing += stage.duration * stage.stored_in_mean(e, [&](int f) { return rise[f]; });
       for (int k = 0; k <= Dim; ++k) {
         const int f = grid.element_face[e][k];
         missing += stage.duration *
