@@ -17,10 +17,13 @@ namespace {
 /// iteration of undrained soil may not converge; with more it is slower
 /// (docs/theory/moving-soil.md, "Flow and motion").
 constexpr double held_storage = 1.5;
-/// Stabilisation of the pressures at faces over this storage: in triangles of equal sides h a
-/// mobility for the change of the pressure of h^2/(4 E_oed) (Rodrigo, Gaspar, Hu and Zikatanov,
-/// Comput. Methods Appl. Mech. Eng. 298 (2016) 183).
-constexpr double stabilisation = 3.0;
+/// Stabilisation of pressures at faces, over this storage: in triangles of equal sides h a mobility
+/// for the change of the pressure of h^2/(8 E_oed), half of that of Rodrigo, Gaspar, Hu and
+/// Zikatanov (Comput. Methods Appl. Mech. Eng. 298 (2016) 183), which smears more ...
+constexpr double stabilisation = 2.0;
+/// ... less what Darcy's law moves in the step. None is left where that exceeds this times the
+/// storage, some h^2/(4 E_oed).
+constexpr double enough_mobility = 0.4;
 /// Share of this storage that remains where soil with inertia has a mobility instead: it fixes the
 /// level of the pressure.
 constexpr double share_with_mobility = 1e-3;
@@ -92,16 +95,22 @@ std::vector<double> risen(std::vector<double> pressure, const Eigen::VectorXd& r
   return pressure;
 }
 
-/// Gives the flow the storage of held soil, m3/Pa per element. It acts on mean pressures. Where
-/// soil retains liquid, pressures at faces follow these (docs/theory/moving-soil.md, "Flow and
-/// motion").
+/// Gives the flow the storage of held soil, m3/Pa per element, in a step of `dt`, s. It acts on
+/// mean pressures. Where soil retains liquid and drains slowly, pressures at faces follow these
+/// (docs/theory/moving-soil.md, "Flow and motion").
 template <int Dim>
-void give_storage(const std::vector<double>& held, bool retains, FlowForcing<Dim>& forcing) {
+void give_storage(const Grid<Dim>& grid, const std::vector<double>& held, bool retains, double dt,
+                  FlowForcing<Dim>& forcing) {
   forcing.mean_storage = held;
   if (!retains) return;
   forcing.side_storage = held;
-  for (double& storage : forcing.side_storage) storage *= 1.0 + stabilisation;
-  for (double& storage : forcing.mean_storage) storage *= -stabilisation;
+  for (std::size_t e = 0; e < held.size(); ++e) {
+    const double mobility = forcing.coefficients.porosity[e] / forcing.coefficients.drag[e];
+    const double drains = mobility * dt * std::pow(grid.volume[e], 1.0 - 2.0 / Dim);
+    const double stiff = std::max(0.0, enough_mobility * held[e] - drains);
+    forcing.side_storage[e] = stabilisation * stiff / enough_mobility;
+    forcing.mean_storage[e] -= forcing.side_storage[e];
+  }
 }
 
 Unsolved no_equilibrium(const std::string& where, int worst_node) {
@@ -196,7 +205,7 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
   if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
   const Eigen::VectorXd acts = acting_shares(soils, air, at_start.porosity, pressure);
   const std::vector<double> held = held_by_soil(acts, forcing.mean_mobility, dt);
-  give_storage(held, !air.empty(), forcing);
+  give_storage(grid_, held, !air.empty(), dt, forcing);
   AndersonMixing mixing(memory);
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const Agreement agreement = agreement_at(
