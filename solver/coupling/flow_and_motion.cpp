@@ -18,11 +18,12 @@ namespace {
 /// (docs/theory/moving-soil.md, "Flow and motion").
 constexpr double held_storage = 1.5;
 /// Stabilisation of pressures at faces, over this storage: in triangles of equal sides h a mobility
-/// for the change of the pressure of h^2/(8 E_oed), half of that of Rodrigo, Gaspar, Hu and
-/// Zikatanov (Comput. Methods Appl. Mech. Eng. 298 (2016) 183), which smears more ...
+/// for the change of the pressure of h^2/(8 E_oed). That is half of what Rodrigo, Gaspar, Hu and
+/// Zikatanov take (Comput. Methods Appl. Mech. Eng. 298 (2016) 183): theirs delays the drainage of
+/// soil that stays full by 0.3 % more.
 constexpr double stabilisation = 2.0;
-/// ... less what Darcy's law moves in the step. None is left where that exceeds this times the
-/// storage, some h^2/(4 E_oed).
+/// It falls as Darcy's mobility times the step grows, and is zero where this is more than so many
+/// times the storage, some h^2/(4 E_oed).
 constexpr double enough_mobility = 0.4;
 /// Share of this storage that remains where soil with inertia has a mobility instead: it fixes the
 /// level of the pressure.
