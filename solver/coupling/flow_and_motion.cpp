@@ -104,7 +104,7 @@ void give_storage(const Grid<Dim>& grid, const std::vector<double>& held, bool r
                   FlowForcing<Dim>& forcing) {
   forcing.mean_storage = held;
   if (!retains) return;
-  forcing.side_storage = held;
+  forcing.side_storage.resize(held.size());
   for (std::size_t e = 0; e < held.size(); ++e) {
     const double mobility = forcing.coefficients.porosity[e] / forcing.coefficients.drag[e];
     const double drains = mobility * dt * std::pow(grid.volume[e], 1.0 - 2.0 / Dim);

@@ -12,8 +12,8 @@
 namespace suffuse {
 namespace {
 
-/// Soil is compared with all ground, but with at most this multiple of what moves: of its weight,
-/// of its loads and of its height.
+/// The motion of soil is compared with the weight, the loads and the height of all ground, but with
+/// at most this many times those of the soil that moves.
 constexpr double ground_at_most = 10.0;
 
 /// Mass, load and height that the motion of soil is compared with.
