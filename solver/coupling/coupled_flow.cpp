@@ -111,10 +111,8 @@ template <int Dim>
 void FlowOfMovingSolid<Dim>::move_liquid_along(const SolidMotion& motion,
                                                FlowStep<Dim>& flow) const {
   flow.relative = flow.found.face_volume;
-  const bool has_air = flow_.scheme().soils().air_moves();
-  const ElementField<Dim> air = has_air ? flow_.mixed_state().air : ElementField<Dim>();
-  move_liquid(grid_, motion, air, flow.forcing.back().coefficients.porosity,
-              flow_.mixed_state().face_pressure, flow.found);
+  move_liquid(grid_, motion, flow_.mixed_state(), flow.forcing.back().coefficients.porosity,
+              flow_.scheme().soils().soil_share, flow.found);
   for (const double gain : motion.solid_gain) flow.room_gained.push_back(0.0 - gain);
 }
 

@@ -17,14 +17,6 @@ namespace {
 /// iteration of undrained soil may not converge; with more it is slower
 /// (docs/theory/moving-soil.md, "Flow and motion").
 constexpr double held_storage = 1.5;
-/// Stabilisation of pressures at faces, over this storage: in triangles of equal sides h a mobility
-/// for the change of the pressure of h^2/(8 E_oed). That is half of what Rodrigo, Gaspar, Hu and
-/// Zikatanov take (Comput. Methods Appl. Mech. Eng. 298 (2016) 183): theirs delays the drainage of
-/// soil that stays full by 0.3 % more.
-constexpr double stabilisation = 2.0;
-/// It falls as Darcy's mobility times the step grows, and is zero where this is more than so many
-/// times the storage, some h^2/(4 E_oed).
-constexpr double enough_mobility = 0.4;
 /// Share of this storage that remains where soil with inertia has a mobility instead: it fixes the
 /// level of the pressure.
 constexpr double share_with_mobility = 1e-3;
@@ -94,24 +86,6 @@ double largest_stress(const MovingSkeleton<Dim>& solid) {
 std::vector<double> risen(std::vector<double> pressure, const Eigen::VectorXd& rise) {
   for (std::size_t e = 0; e < pressure.size(); ++e) pressure[e] += rise[e];
   return pressure;
-}
-
-/// Gives the flow the storage of held soil, m3/Pa per element, in a step of `dt`, s. It acts on
-/// mean pressures. Where soil retains liquid and drains slowly, pressures at faces follow these
-/// (docs/theory/moving-soil.md, "Flow and motion").
-template <int Dim>
-void give_storage(const Grid<Dim>& grid, const std::vector<double>& held, bool retains, double dt,
-                  FlowForcing<Dim>& forcing) {
-  forcing.mean_storage = held;
-  if (!retains) return;
-  forcing.side_storage.resize(held.size());
-  for (std::size_t e = 0; e < held.size(); ++e) {
-    const double mobility = forcing.coefficients.porosity[e] / forcing.coefficients.drag[e];
-    const double drains = mobility * dt * std::pow(grid.volume[e], 1.0 - 2.0 / Dim);
-    const double stiff = std::max(0.0, enough_mobility * held[e] - drains);
-    forcing.side_storage[e] = stabilisation * stiff / enough_mobility;
-    forcing.mean_storage[e] -= forcing.side_storage[e];
-  }
 }
 
 Unsolved no_equilibrium(const std::string& where, int worst_node) {
@@ -205,19 +179,19 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
   const FlowCoefficients<Dim> at_start = forcing.coefficients;
   if (at_start.quadratic_drag.empty()) forcing.mean_mobility = solid_.inertial_mobility(dt);
   const Eigen::VectorXd acts = acting_shares(soils, air, at_start.porosity, pressure);
-  const std::vector<double> held = held_by_soil(acts, forcing.mean_mobility, dt);
-  give_storage(grid_, held, !air.empty(), dt, forcing);
+  forcing.mean_storage = held_by_soil(acts, forcing.mean_mobility, dt);
   AndersonMixing mixing(memory);
   Eigen::VectorXd rise = expected_rise(step.rise, dt);
   const Agreement agreement = agreement_at(
-      largest_of_soil(pressure_on_solid(grid_, soils, pressure, at_start.porosity, air), held),
+      largest_of_soil(pressure_on_solid(grid_, soils, pressure, at_start.porosity, air),
+                      forcing.mean_storage),
       start.tolerance);
   Eigen::VectorXd elsewhere = Eigen::VectorXd::Zero(rise.size());  // rise at faces without soil
   Approach approach;
   while (approach.begins()) {
     ++step.iterations;
     step.motion->reduction = forcing.reduction = approach.is_near ? 0.0 : reduction;
-    const Eigen::VectorXd of_elements = at_elements(rise, held);
+    const Eigen::VectorXd of_elements = at_elements(rise, forcing.mean_storage);
     const std::vector<double> acting =
         pressure_on_solid(grid_, soils, risen(pressure, of_elements), at_start.porosity, air);
     const SolidMotion& motion = solid_.solve(*step.motion, acting);
@@ -226,21 +200,22 @@ std::optional<Unsolved> FlowAndMotion<Dim>::iterate(ImplicitMixed<Dim>& scheme,
       std::optional<Eigen::VectorXd> other = Eigen::VectorXd::Zero(pressure.size());
       if (!approach.guesses(rise)) other = undrained_rise(*step.motion, acting, of_elements);
       if (!other) return no_equilibrium("", step.motion->motion.worst_node);
-      rise = at_faces(*other, held);
+      rise = at_faces(*other, forcing.mean_storage);
       mixing = AndersonMixing(memory);
       continue;
     }
     approach.worst_node.reset();
-    const std::vector<double> moved = !soils.air_moves()
-                                          ? motion.face_volume
-                                          : without_air(motion, start.state, at_start, forcing);
-    forcing.source = source_of(moved, own, held, of_elements, dt);
+    const std::vector<double> moved =
+        !soils.air_moves() ? motion.face_volume
+                           : without_air(motion, start.state, at_start, soils, forcing);
+    forcing.source = source_of(moved, own, dt);
+    forcing.known_rise = as_std_vector(of_elements);
     forcing.expected_rise = as_std_vector(rise + elsewhere);
     MixedStep<Dim> found = scheme.step(start.state, dt, {&forcing});
     const Eigen::VectorXd all = rise_between(start.state.face_pressure, found.end.face_pressure);
-    const Eigen::VectorXd rose = at_soil(all, held);
+    const Eigen::VectorXd rose = at_soil(all, forcing.mean_storage);
     elsewhere = all - rose;
-    const Eigen::VectorXd new_of_elements = at_elements(rose, held);
+    const Eigen::VectorXd new_of_elements = at_elements(rose, forcing.mean_storage);
     const Eigen::VectorXd differs = acts.cwiseProduct(new_of_elements - of_elements).cwiseAbs();
     const double off = differs.maxCoeff(&approach.worst_element);
     const double allowed = agreement.allowed(largest(acts.cwiseProduct(new_of_elements)));
@@ -388,9 +363,9 @@ template <int Dim>
 std::vector<double> FlowAndMotion<Dim>::without_air(const SolidMotion& motion,
                                                     const MixedState<Dim>& state,
                                                     const FlowCoefficients<Dim>& start,
+                                                    const FlowSoils<Dim>& soils,
                                                     FlowForcing<Dim>& forcing) const {
-  const MovedAir<Dim> moved(grid_, state.air, start.porosity, motion.face_volume,
-                            state.face_pressure);
+  const MovedAir<Dim> moved(grid_, state, start.porosity, soils.soil_share, motion.face_volume);
   std::vector<double> result(grid_.face_count());
   for (int f = 0; f < grid_.face_count(); ++f) result[f] = moved.without_air(f);
   FlowCoefficients<Dim>& c = forcing.coefficients;
@@ -403,13 +378,10 @@ std::vector<double> FlowAndMotion<Dim>::without_air(const SolidMotion& motion,
 
 template <int Dim>
 std::vector<double> FlowAndMotion<Dim>::source_of(const std::vector<double>& moved,
-                                                  const std::vector<double>& own,
-                                                  const std::vector<double>& storage,
-                                                  const Eigen::VectorXd& rise, double dt) const {
+                                                  const std::vector<double>& own, double dt) const {
   std::vector<double> source(grid_.mesh.element_count());
   for_each_index(grid_.mesh.element_count(), threads_, [&](int e) {
-    // The fixed-stress storage acts only on the change from the pressure tried last.
-    source[e] = (own.empty() ? 0.0 : own[e]) + storage[e] * rise[e] / dt;
+    source[e] = own.empty() ? 0.0 : own[e];
     // Liquid enters the pores that open as the soil moves.
     for (int k = 0; k <= Dim; ++k) {
       source[e] -= grid_.element_face_sign[e][k] * moved[grid_.element_face[e][k]] / dt;

@@ -116,12 +116,11 @@ class FlowAndMotion {
   [[nodiscard]] std::vector<double> without_air(const SolidMotion& motion,
                                                 const MixedState<Dim>& state,
                                                 const FlowCoefficients<Dim>& start,
+                                                const FlowSoils<Dim>& soils,
                                                 FlowForcing<Dim>& forcing) const;
   /// \param moved  volume that crosses faces with the motion, m3
   [[nodiscard]] std::vector<double> source_of(const std::vector<double>& moved,
-                                              const std::vector<double>& own,
-                                              const std::vector<double>& storage,
-                                              const Eigen::VectorXd& rise, double dt) const;
+                                              const std::vector<double>& own, double dt) const;
 
   const Grid<Dim>& grid_;
   const MovingSkeleton<Dim>& solid_;

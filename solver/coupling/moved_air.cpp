@@ -49,16 +49,19 @@ void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
 }  // namespace
 
 template <int Dim>
-MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air,
-                        const std::vector<double>& porosity, const std::vector<double>& face_volume,
-                        const std::vector<double>& face_pressure)
+MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow,
+                        const std::vector<double>& porosity, const std::vector<double>& soil_share,
+                        const std::vector<double>& face_volume)
     : grid_(grid), solid_(face_volume.size(), 0.0), water_(solid_) {
-  const std::vector<double> saturation = saturation_of(grid, air, porosity);
+  const std::vector<double> saturation = saturation_of(grid, flow.air, porosity);
   for (int f = 0; f < grid.face_count(); ++f) {
-    // At the outer boundary of the mesh the water before it takes the place of soil that leaves,
-    // or air, which is not counted.
+    // Soil that swells or sinks at the outer boundary of the mesh keeps its saturation there: water
+    // crosses. It is the water before the boundary, if any. In free space air crosses, which is not
+    // counted.
     if (grid.is_outer(f)) {
-      if (face_pressure[f] > 0.0) water_[f] = face_volume[f];
+      const int e = grid.face_left[f];
+      water_[f] =
+          (flow.face_pressure[f] > 0.0 ? 1.0 : soil_share[e] * saturation[e]) * face_volume[f];
       continue;
     }
     // Porosity and saturation are those of the element that the soil comes from.
@@ -97,31 +100,31 @@ std::vector<double> saturation_of(const Grid<Dim>& grid, const ElementField<Dim>
 }
 
 template <int Dim>
-void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const ElementField<Dim>& air,
-                 std::vector<double> porosity, const std::vector<double>& face_pressure,
+void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const MixedState<Dim>& flow,
+                 std::vector<double> porosity, const std::vector<double>& soil_share,
                  MixedStep<Dim>& step) {
-  if (air.empty()) {
+  if (soil_share.empty()) {
     for (int f = 0; f < grid.face_count(); ++f) {
       step.face_volume[f] += motion.face_volume[f] - motion.solid_face_volume[f];
     }
     return;
   }
-  const MovedAir<Dim> moved(grid, air, porosity, motion.face_volume, face_pressure);
-  for (std::size_t e = 0; e < air.size(); ++e) {
+  const MovedAir<Dim> moved(grid, flow, porosity, soil_share, motion.face_volume);
+  for (std::size_t e = 0; e < porosity.size(); ++e) {
     porosity[e] += moved.pores_gained(static_cast<int>(e)) / grid.volume[e];
   }
   const std::vector<double> saturation = saturation_of(grid, step.end.air, porosity);
   for (int f = 0; f < grid.face_count(); ++f) {
     step.face_volume[f] += moved.water(f, motion.solid_face_volume[f], saturation);
   }
-  take_place(grid, air, porosity, step.face_volume, motion.solid_gain, step.end.air);
+  take_place(grid, flow.air, porosity, step.face_volume, motion.solid_gain, step.end.air);
 }
 
 template class MovedAir<2>;
 template class MovedAir<3>;
-template void move_liquid(const Grid<2>&, const SolidMotion&, const ElementField<2>&,
+template void move_liquid(const Grid<2>&, const SolidMotion&, const MixedState<2>&,
                           std::vector<double>, const std::vector<double>&, MixedStep<2>&);
-template void move_liquid(const Grid<3>&, const SolidMotion&, const ElementField<3>&,
+template void move_liquid(const Grid<3>&, const SolidMotion&, const MixedState<3>&,
                           std::vector<double>, const std::vector<double>&, MixedStep<3>&);
 template std::vector<double> saturation_of(const Grid<2>&, const ElementField<2>&,
                                            const std::vector<double>&);

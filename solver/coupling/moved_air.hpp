@@ -16,13 +16,12 @@ namespace suffuse {
 template <int Dim>
 class MovedAir {
  public:
-  /// \param air          before the motion, per side of each element, m3; not empty
+  /// \param flow         before the motion, with air
   /// \param porosity     per element
+  /// \param soil_share   of the pores of each element, see `FlowSoils`
   /// \param face_volume  of soil, S_f, along the normal of each face, m3
-  /// \param face_pressure  before the motion, Pa: water stands before an outer face where it is
-  /// above 0
-  MovedAir(const Grid<Dim>& grid, const ElementField<Dim>& air, const std::vector<double>& porosity,
-           const std::vector<double>& face_volume, const std::vector<double>& face_pressure);
+  MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow, const std::vector<double>& porosity,
+           const std::vector<double>& soil_share, const std::vector<double>& face_volume);
 
   /// Solid and water, m3: the soil without its air.
   [[nodiscard]] double without_air(int face) const { return solid_[face] + water_[face]; }
@@ -47,13 +46,13 @@ class MovedAir {
 
 /// Adds the water that moved with the soil to the volumes of `step`, which are relative to the
 /// soil. Sets the air to that after the motion.
-/// \param motion    committed
-/// \param air       before the step, per side of each element, m3; empty if there is none
-/// \param porosity  per element, before the motion
-/// \param face_pressure  see `MovedAir`
+/// \param motion      committed
+/// \param flow        before the step
+/// \param porosity    per element, before the motion
+/// \param soil_share  see `MovedAir`; empty if no air moves
 template <int Dim>
-void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const ElementField<Dim>& air,
-                 std::vector<double> porosity, const std::vector<double>& face_pressure,
+void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const MixedState<Dim>& flow,
+                 std::vector<double> porosity, const std::vector<double>& soil_share,
                  MixedStep<Dim>& step);
 
 /// S of each element.

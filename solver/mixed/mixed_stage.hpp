@@ -107,7 +107,7 @@ struct MixedStage {
     if (mean_storage.empty()) return 0.0;
     double sum = 0.0;
     for (const int f : model.grid.element_face[e]) sum += rise_of_face(f);
-    return mean_storage[e] * sum / (Dim + 1);
+    return mean_storage[e] * (sum / (Dim + 1) - forcing.known_rise[e]);
   }
   /// Liquid that the share of a side stores as its pressure rises by `rise`, m3/s.
   [[nodiscard]] double stored(int e, int k, double rise) const {
@@ -183,11 +183,13 @@ struct MixedStage {
   ElementField<Dim> displaced;
 
  private:
-  /// Water that moves with the soil and its air leaves sides by what they hold, and enters them by
-  /// their room: a dry side has nothing to give.
+  /// Soil strains alike at all sides of an element, as its mean pressure acts on it. In free space
+  /// water that moves leaves sides by what they hold, and enters them by their room: a dry side has
+  /// nothing to give.
   void share_source() {
     moved_source.resize(net_source.size());
     for_each_element([&](int e) {
+      const double of_soil = model.soils.soil_share[e];
       const double pores = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
       double sum = 0.0;
       for (int k = 0; k <= Dim; ++k) {
@@ -195,7 +197,8 @@ struct MixedStage {
         sum += moved_source[e][k] = std::max(0.0, net_source[e] > 0.0 ? air : pores - air);
       }
       for (double& part : moved_source[e]) {
-        part = net_source[e] * (sum > 0.0 ? part / sum : 1.0 / (Dim + 1));
+        const double alike = 1.0 / (Dim + 1);
+        part = net_source[e] * (sum > 0.0 ? std::lerp(part / sum, alike, of_soil) : alike);
       }
     });
   }
@@ -212,8 +215,6 @@ struct MixedStage {
       if (!forcing.force.empty()) drive[e] += forcing.force[e];
       if (inertia > 0.0) drive[e] += inertia * base.velocity[e];
       storage[e] = c.water_volume[e] / (model.settings.bulk_modulus * (Dim + 1) * duration);
-      if (!forcing.side_storage.empty())
-        storage[e] += forcing.side_storage[e] / ((Dim + 1) * duration);
       if (expected_gradient.empty()) return;
       expected_gradient[e] = model.pressure_gradient(e, base.face_pressure, forcing.expected_rise);
     });

@@ -19,12 +19,13 @@ class MovedAirTest : public testing::Test {
     for (int e = 0; e < grid_.mesh.element_count(); ++e) {
       // Half filled.
       const double side = 0.5 * 0.4 * grid_.volume[e] / 3.0;
-      air_.push_back({side, side, side});
+      state_.air.push_back({side, side, side});
     }
     for (const Vector<2>& normal : grid_.face_normal) {
       shift_.push_back(normal.dot(Vector<2>(0.01, -0.02)));
     }
-    suction_.assign(shift_.size(), -1e3);
+    state_.face_pressure.assign(shift_.size(), -1e3);
+    share_.assign(porosity_.size(), 1.0);
   }
 
   [[nodiscard]] double outflow(int e, const std::vector<double>& through) const {
@@ -38,13 +39,13 @@ class MovedAirTest : public testing::Test {
   Mesh<2> mesh_ = model::column_mesh(4, 4);
   Grid<2> grid_;
   std::vector<double> porosity_;
-  ElementField<2> air_;
-  std::vector<double> shift_;    ///< of a body that moves as a whole, m3
-  std::vector<double> suction_;  ///< pressure at faces, Pa
+  MixedState<2> state_;
+  std::vector<double> share_;  ///< of soil in the pores of elements
+  std::vector<double> shift_;  ///< of a body that moves as a whole, m3
 };
 
 TEST_F(MovedAirTest, ABodyThatMovesAsAWholeCarriesItsWater) {
-  const MovedAir<2> moved(grid_, air_, porosity_, shift_, suction_);
+  const MovedAir<2> moved(grid_, state_, porosity_, share_, shift_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   std::vector<char> inside(porosity_.size(), 1);
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -61,8 +62,24 @@ TEST_F(MovedAirTest, ABodyThatMovesAsAWholeCarriesItsWater) {
   }
 }
 
-TEST_F(MovedAirTest, AirTakesThePlaceOfSoilThatLeavesTheOuterBoundary) {
-  const MovedAir<2> moved(grid_, air_, porosity_, shift_, suction_);
+/// The body's saturation, 0.5, does not change at the boundary, where it leaves room or needs it.
+TEST_F(MovedAirTest, SoilAtTheOuterBoundaryKeepsItsSaturation) {
+  const MovedAir<2> moved(grid_, state_, porosity_, share_, shift_);
+  const std::vector<double> saturation(porosity_.size(), 0.5);
+  for (int e = 0; e < grid_.mesh.element_count(); ++e) {
+    double gained = 0.0;  // of water
+    for (int k = 0; k < 3; ++k) {
+      const int f = grid_.element_face[e][k];
+      const double solid = grid_.is_outer(f) ? 0.0 : 0.6 * shift_[f];
+      gained -= grid_.element_face_sign[e][k] * moved.water(f, solid, saturation);
+    }
+    EXPECT_NEAR(gained, 0.5 * moved.pores_gained(e), 1e-16);
+  }
+}
+
+TEST_F(MovedAirTest, AirTakesThePlaceOfFreeSpaceAtTheOuterBoundary) {
+  share_.assign(porosity_.size(), 0.0);
+  const MovedAir<2> moved(grid_, state_, porosity_, share_, shift_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (!grid_.is_outer(f)) continue;
@@ -73,8 +90,8 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfSoilThatLeavesTheOuterBoundary) {
 
 /// The volume that soil leaves at a boundary under water, or takes from it, is water.
 TEST_F(MovedAirTest, WaterTakesThePlaceOfSoilThatLeavesABoundaryUnderWater) {
-  const std::vector<double> pressure(shift_.size(), 1e3);
-  const MovedAir<2> moved(grid_, air_, porosity_, shift_, pressure);
+  state_.face_pressure.assign(shift_.size(), 1e3);
+  const MovedAir<2> moved(grid_, state_, porosity_, share_, shift_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (!grid_.is_outer(f)) continue;
@@ -95,11 +112,11 @@ TEST_F(MovedAirTest, SoilComesFromTheElementBehindIt) {
   int f = 0;
   while (grid_.is_outer(f) || shift_[f] <= 0.0) ++f;
   porosity_[grid_.face_right[f]] = 0.9;
-  const MovedAir<2> with(grid_, air_, porosity_, shift_, suction_);
+  const MovedAir<2> with(grid_, state_, porosity_, share_, shift_);
   EXPECT_NEAR(with.without_air(f), 0.8 * shift_[f], 1e-16);
   std::vector<double> back = shift_;
   for (double& v : back) v = -v;
-  const MovedAir<2> against(grid_, air_, porosity_, back, suction_);
+  const MovedAir<2> against(grid_, state_, porosity_, share_, back);
   const double air = 0.5 * 0.4;
   EXPECT_NEAR(against.without_air(f), (1.0 - air) * back[f], 1e-16);
 }
@@ -109,7 +126,7 @@ TEST_F(MovedAirTest, NoElementGivesWaterThatItDoesNotHave) {
   int f = 0;
   while (grid_.is_outer(f)) ++f;
   const std::vector<double> volume(grid_.face_count(), 0.0);
-  const MovedAir<2> still(grid_, air_, porosity_, volume, suction_);
+  const MovedAir<2> still(grid_, state_, porosity_, share_, volume);
   std::vector<double> saturation(porosity_.size(), 1.0);
   saturation[grid_.face_right[f]] = 0.0;
   EXPECT_DOUBLE_EQ(still.water(f, 0.01, saturation), 0.0);
@@ -123,7 +140,7 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfWhatLeaves) {
   motion.face_volume = shift_;
   motion.solid_gain.assign(porosity_.size(), 0.0);
   MixedStep<2> step;
-  step.end.air = air_;
+  step.end.air = state_.air;
   for (int f = 0; f < grid_.face_count(); ++f) {
     motion.solid_face_volume.push_back(0.6 * shift_[f] + some(random));
     step.face_volume.push_back(some(random));
@@ -131,9 +148,9 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfWhatLeaves) {
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     motion.solid_gain[e] = -outflow(e, motion.solid_face_volume);
   }
-  move_liquid(grid_, motion, air_, porosity_, suction_, step);
+  move_liquid(grid_, motion, state_, porosity_, share_, step);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
-    const double gained = element_sum<2>(step.end.air[e]) - element_sum<2>(air_[e]);
+    const double gained = element_sum<2>(step.end.air[e]) - element_sum<2>(state_.air[e]);
     const double left = outflow(e, step.face_volume) + outflow(e, motion.solid_face_volume);
     EXPECT_NEAR(gained, left, 1e-16);
   }
@@ -148,14 +165,14 @@ TEST_F(MovedAirTest, AirOfASideStaysWithinItsRoom) {
   for (const double moved : {-0.3, 0.3}) {
     MixedStep<2> step;
     step.face_volume = volume;
-    step.end.air = air_;
-    ElementField<2> before = air_;
+    step.end.air = state_.air;
+    ElementField<2>& before = state_.air;
     for (int e = 0; e < grid_.mesh.element_count(); ++e) {
       const double room = porosity_[e] * grid_.volume[e] / 3.0;
       step.end.air[e] = {0.0, 0.5 * room, room};
       before[e] = {0.0, 0.5 * room, (1.0 + moved) * room};
     }
-    move_liquid(grid_, still, before, porosity_, suction_, step);
+    move_liquid(grid_, still, state_, porosity_, share_, step);
     for (int e = 0; e < grid_.mesh.element_count(); ++e) {
       const double room = porosity_[e] * grid_.volume[e] / 3.0;
       for (const double air : step.end.air[e]) {
