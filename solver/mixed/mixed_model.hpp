@@ -42,8 +42,8 @@ struct FlowForcing {
   std::vector<FaceCondition> conditions;  ///< per face
   /// Per element: liquid that leaves it beyond what it stores, m3/s. Empty: none.
   std::vector<double> source;
-  /// Additional storage per element, m3/Pa. It multiplies the difference between two rises of the
-  /// element's mean pressure: the actual one and `known_rise`, Pa. Empty: none.
+  /// Additional storage per element, m3/Pa, of the rise of its mean pressure above `known_rise`,
+  /// Pa. Empty: none.
   std::vector<double> mean_storage = {};
   std::vector<double> known_rise = {};
   /// Additional mobility per element from the soil's inertia, m3 s/kg. It multiplies the difference

@@ -183,22 +183,20 @@ struct MixedStage {
   ElementField<Dim> displaced;
 
  private:
-  /// Soil strains alike at all sides of an element, as its mean pressure acts on it. In free space
-  /// water that moves leaves sides by what they hold, and enters them by their room: a dry side has
-  /// nothing to give.
+  /// All sides of soil have equal parts. In free space they give by what they hold, and take by
+  /// their room: a dry side has nothing to give.
   void share_source() {
     moved_source.resize(net_source.size());
     for_each_element([&](int e) {
-      const double of_soil = model.soils.soil_share[e];
       const double pores = coefficients.porosity[e] * model.grid.volume[e] / (Dim + 1);
       double sum = 0.0;
       for (int k = 0; k <= Dim; ++k) {
-        const double air = base.air[e][k];
-        sum += moved_source[e][k] = std::max(0.0, net_source[e] > 0.0 ? air : pores - air);
+        const double free = net_source[e] > 0.0 ? base.air[e][k] : pores - base.air[e][k];
+        sum += moved_source[e][k] = std::max(0.0, free);
       }
+      const double soil = sum > 0.0 ? model.soils.soil_share[e] : 1.0;
       for (double& part : moved_source[e]) {
-        const double alike = 1.0 / (Dim + 1);
-        part = net_source[e] * (sum > 0.0 ? std::lerp(part / sum, alike, of_soil) : alike);
+        part = net_source[e] * std::lerp(soil < 1.0 ? part / sum : 0.0, 1.0 / (Dim + 1), soil);
       }
     });
   }
