@@ -224,14 +224,14 @@ class StrengthTable {
     return factor_;
   }
   /// Writes the mechanism of the last row.
-  void write_mechanism(const std::string& path) const {
+  void write_mechanism(PendingFile& pending) const {
     double largest = 0.0;
     for (int i = 0; i < grid_.mesh.node_count() && !mechanism_.empty(); ++i) {
       largest = std::max(largest, displacement(i).norm());
     }
     if (largest == 0.0) {
       std::fprintf(stderr, "suffuse-solver: warning: %s: not written, as no soil failed\n",
-                   path.c_str());
+                   options_.mechanism.c_str());
       return;
     }
     Field motion{"mechanism", "1", Dim, mechanism_};
@@ -242,16 +242,14 @@ class StrengthTable {
     }
     const std::vector<int>& regions = grid_.mesh.element_region;
     const Field region{"region", "1", 1, {regions.begin(), regions.end()}, true};
-    PendingFile pending(path);
     {
       Hdf5File file(pending.temporary_path(), Hdf5File::Mode::create);
       write_vtkhdf(file, vtk_grid(grid_.mesh),
                    {.cell = {shear, {"soil", "1", 1, has_soil_, true}, region}, .point = {motion}});
       write_region_names(file, grid_.mesh.region_names);
       file.write_texts(layout::region_names, grid_.mesh.region_names);
-      const std::string about = layout::field_data_group;
-      file.write(about + "/factor", std::span(&factor_, 1), {1});
-      file.write(about + "/t", std::span(&time_, 1), {1});
+      file.write(std::string(layout::field_data_group) + "/factor", std::span(&factor_, 1), {1});
+      file.write(std::string(layout::field_data_group) + "/t", std::span(&time_, 1), {1});
     }
     pending.commit();
   }
@@ -405,8 +403,10 @@ template <int Dim>
 void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& options) {
   refuse_without_strength(c.document);
   refuse_failing_soil(c, options.failing);
-  if (!options.mechanism.empty() && options.time == "all") {
-    refuse_option("--mechanism", "a file with --time all", "one time");
+  std::optional<PendingFile> mechanism;
+  if (!options.mechanism.empty()) {
+    if (options.time == "all") refuse_option("--mechanism", "a file with --time all", "one time");
+    mechanism.emplace(options.mechanism);
   }
   TextOutput output(options.output);
   const Grid<Dim> grid(c.mesh);
@@ -434,7 +434,7 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
     }
   }
   if (table.has_rows()) warn_of_tension(c, options.failing);
-  if (!options.mechanism.empty()) table.write_mechanism(options.mechanism);
+  if (mechanism) table.write_mechanism(*mechanism);
   if (table.without().empty() || table.has_rows()) output.write(table.text());
   if (table.without().empty()) return;
   throw NumericalError(table.without() +

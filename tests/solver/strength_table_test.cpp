@@ -717,6 +717,9 @@ TEST(StrengthTable, RefusesStatesAndTimesThatDoNotFit) {
             "\"s\", \"min\", \"h\", \"d\" or \"a\", as 2.5d\n");
   EXPECT_EQ(w.refusal(mode + "--state moving.results --time all --mechanism m.hdf"),
             "--mechanism: got a file with --time all; expected one time\n");
+  // No state is reduced before.
+  EXPECT_EQ(w.refusal(mode + "--state moving.results --time 20000 --mechanism nowhere/m.hdf", 4),
+            "nowhere/m.hdf: cannot be created: there is no folder nowhere\n");
   EXPECT_EQ(w.refusal(mode + "--state nowhere", 4), "nowhere: no such results folder\n");
 }
 
