@@ -65,8 +65,13 @@ FlowProgress FlowOfMovingSolid<Dim>::commit(CoupledStep<Dim> step) {
   if (failure_.has_inertia()) {
     failure_.finish_motion(duration, solid_.take_velocities(*step.motion));
   }
+  ElementPores pores = element_pores(grid_, solid_.element_porosity(),
+                                     step.flow.forcing.back().coefficients.porosity,
+                                     flow_.scheme().soils().soil_share);
   const auto [motion, kinetics] = solid_.commit(*std::move(step.motion));
-  move_liquid_along(motion, step.flow);
+  step.flow.relative = step.flow.found.face_volume;
+  step.flow.room_gained =
+      move_liquid(grid_, motion, flow_.mixed_state(), std::move(pores), step.flow.found);
   FlowProgress progress = flow_.commit(std::move(step.flow));
   failure_.finish_step(progress.end, flow_.next_step(), kinetics);
   if (flow_.is_breakpoint(progress.end)) failure_.expect_short_steps();
@@ -105,15 +110,6 @@ void FlowOfMovingSolid<Dim>::start(SoilStart how) {
                      .stiffness = solid_.stiffness(),
                      .compressibility = solid_.compressibility(end_),
                      .time_of_change = time_of_change});
-}
-
-template <int Dim>
-void FlowOfMovingSolid<Dim>::move_liquid_along(const SolidMotion& motion,
-                                               FlowStep<Dim>& flow) const {
-  flow.relative = flow.found.face_volume;
-  move_liquid(grid_, motion, flow_.mixed_state(), flow.forcing.back().coefficients.porosity,
-              flow_.scheme().soils().soil_share, flow.found);
-  for (const double gain : motion.solid_gain) flow.room_gained.push_back(0.0 - gain);
 }
 
 template <int Dim>

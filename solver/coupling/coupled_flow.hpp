@@ -36,9 +36,6 @@ class FlowOfMovingSolid {
   void archive(auto& archive) { archive(failure_, rise_, iterations_); }
 
  private:
-  /// Adds what moves with the solid to the step of the flow.
-  void move_liquid_along(const SolidMotion& motion, FlowStep<Dim>& flow) const;
-
   const Grid<Dim>& grid_;
   ImplicitFlow<Dim>& flow_;
   MovingSkeleton<Dim>& solid_;

@@ -365,7 +365,10 @@ std::vector<double> FlowAndMotion<Dim>::without_air(const SolidMotion& motion,
                                                     const FlowCoefficients<Dim>& start,
                                                     const FlowSoils<Dim>& soils,
                                                     FlowForcing<Dim>& forcing) const {
-  const MovedAir<Dim> moved(grid_, state, start.porosity, soils.soil_share, motion.face_volume);
+  const MovedAir<Dim> moved(
+      grid_, state,
+      element_pores(grid_, solid_.element_porosity(), start.porosity, soils.soil_share),
+      motion.face_volume);
   std::vector<double> result(grid_.face_count());
   for (int f = 0; f < grid_.face_count(); ++f) result[f] = moved.without_air(f);
   FlowCoefficients<Dim>& c = forcing.coefficients;

@@ -8,6 +8,10 @@
 namespace suffuse {
 namespace {
 
+/// Largest gap over the room of an element for gap, water and air. Points leave an element all at
+/// once: the rest of the room is for the solid of one that is still there.
+constexpr double largest_gap = 0.5;
+
 /// Adds `missing`, m3, to the air at the sides of an element in equal parts, as far as each side
 /// has room or air. If no side has any, the rest is added in equal parts nevertheless.
 template <int Dim>
@@ -31,13 +35,13 @@ void distribute(double missing, double room, ElementValues<Dim>& air) {
 }
 
 /// Sets each element's volume of air from the balance, exactly: the air `before` the step, plus the
-/// volume that `liquid` (through faces, m3) and solid have left.
+/// volume that `liquid` (through faces, m3) has left, plus the growth of the room.
 template <int Dim>
 void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
                 const std::vector<double>& porosity, const std::vector<double>& liquid,
-                const std::vector<double>& solid_gain, ElementField<Dim>& air) {
+                const std::vector<double>& room_gained, ElementField<Dim>& air) {
   for (std::size_t e = 0; e < air.size(); ++e) {
-    double left = element_sum<Dim>(before[e]) - solid_gain[e];
+    double left = element_sum<Dim>(before[e]) + room_gained[e];
     for (int k = 0; k <= Dim; ++k) {
       left += grid.element_face_sign[e][k] * liquid[grid.element_face[e][k]];
     }
@@ -46,28 +50,49 @@ void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
   }
 }
 
+/// The part of the volume `moved`, m3, by which soil swells at an outer face that closes the gap
+/// there. In air the gap takes it all, up to a size of `limit`; under water soil only closes a gap,
+/// or shrinks back to the boundary.
+double closes_gap(double& gap, double moved, double limit, bool under_water) {
+  double closed = gap - std::clamp(gap - moved, -limit, limit);
+  if (under_water) closed = moved > 0.0 ? std::clamp(gap, 0.0, moved) : std::clamp(gap, moved, 0.0);
+  gap -= closed;
+  return closed;
+}
+
 }  // namespace
 
 template <int Dim>
-MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow,
-                        const std::vector<double>& porosity, const std::vector<double>& soil_share,
+ElementPores element_pores(const Grid<Dim>& grid, std::vector<double> without_solid,
+                           std::vector<double> porosity, std::vector<double> soil_share) {
+  std::vector<double> gap = std::move(without_solid);
+  for (std::size_t e = 0; e < gap.size(); ++e) gap[e] = grid.volume[e] * (gap[e] - porosity[e]);
+  return {std::move(porosity), std::move(soil_share), std::move(gap)};
+}
+
+template <int Dim>
+MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow, ElementPores pores,
                         const std::vector<double>& face_volume)
     : grid_(grid), solid_(face_volume.size(), 0.0), water_(solid_) {
-  const std::vector<double> saturation = saturation_of(grid, flow.air, porosity);
+  const std::vector<double> saturation = saturation_of(grid, flow.air, pores.porosity);
+  std::vector<double> of_soil = pores.porosity;
+  for (std::size_t e = 0; e < of_soil.size(); ++e)
+    of_soil[e] /= 1.0 - pores.gap[e] / grid.volume[e];
   for (int f = 0; f < grid.face_count(); ++f) {
-    // Soil that swells or sinks at the outer boundary of the mesh keeps its saturation there: water
-    // crosses. It is the water before the boundary, if any. In free space air crosses, which is not
-    // counted.
+    // Before the outer boundary of the mesh is water, or air, which is not counted.
     if (grid.is_outer(f)) {
       const int e = grid.face_left[f];
-      water_[f] =
-          (flow.face_pressure[f] > 0.0 ? 1.0 : soil_share[e] * saturation[e]) * face_volume[f];
+      const bool under_water = flow.face_pressure[f] > 0.0;
+      const double room = pores.porosity[e] * grid.volume[e] + pores.gap[e];
+      const double limit = largest_gap * pores.soil_share[e] * room;
+      solid_[f] = closes_gap(pores.gap[e], face_volume[f], limit, under_water);
+      if (under_water) water_[f] = face_volume[f] - solid_[f];
       continue;
     }
     // Porosity and saturation are those of the element that the soil comes from.
-    const double pores = taken_in(f, -face_volume[f], porosity);
-    solid_[f] = (1.0 - pores) * face_volume[f];
-    water_[f] = pores * taken_in(f, -face_volume[f], saturation) * face_volume[f];
+    const double porosity = taken_in(f, -face_volume[f], of_soil);
+    solid_[f] = (1.0 - porosity) * face_volume[f];
+    water_[f] = porosity * taken_in(f, -face_volume[f], saturation) * face_volume[f];
   }
 }
 
@@ -80,6 +105,16 @@ double MovedAir<Dim>::taken_in(int face, double volume,
 template <int Dim>
 double MovedAir<Dim>::pores_gained(int e) const {
   return outflow(grid_, e, solid_);
+}
+
+template <int Dim>
+double MovedAir<Dim>::room_gained(int e, double solid) const {
+  double result = -solid;
+  for (int k = 0; k <= Dim; ++k) {
+    const int f = grid_.element_face[e][k];
+    if (grid_.is_outer(f)) result += grid_.element_face_sign[e][k] * solid_[f];
+  }
+  return result;
 }
 
 template <int Dim>
@@ -100,32 +135,40 @@ std::vector<double> saturation_of(const Grid<Dim>& grid, const ElementField<Dim>
 }
 
 template <int Dim>
-void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const MixedState<Dim>& flow,
-                 std::vector<double> porosity, const std::vector<double>& soil_share,
-                 MixedStep<Dim>& step) {
-  if (soil_share.empty()) {
+std::vector<double> move_liquid(const Grid<Dim>& grid, const SolidMotion& motion,
+                                const MixedState<Dim>& flow, ElementPores pores,
+                                MixedStep<Dim>& step) {
+  std::vector<double> room;
+  if (pores.soil_share.empty()) {
     for (int f = 0; f < grid.face_count(); ++f) {
       step.face_volume[f] += motion.face_volume[f] - motion.solid_face_volume[f];
     }
-    return;
+    for (const double gain : motion.solid_gain) room.push_back(0.0 - gain);
+    return room;
   }
-  const MovedAir<Dim> moved(grid, flow, porosity, soil_share, motion.face_volume);
-  for (std::size_t e = 0; e < porosity.size(); ++e) {
-    porosity[e] += moved.pores_gained(static_cast<int>(e)) / grid.volume[e];
+  const MovedAir<Dim> moved(grid, flow, pores, motion.face_volume);
+  for (int e = 0; e < grid.mesh.element_count(); ++e) {
+    pores.porosity[e] += moved.pores_gained(e) / grid.volume[e];
+    room.push_back(moved.room_gained(e, motion.solid_gain[e]));
   }
-  const std::vector<double> saturation = saturation_of(grid, step.end.air, porosity);
+  const std::vector<double> saturation = saturation_of(grid, step.end.air, pores.porosity);
   for (int f = 0; f < grid.face_count(); ++f) {
     step.face_volume[f] += moved.water(f, motion.solid_face_volume[f], saturation);
   }
-  take_place(grid, flow.air, porosity, step.face_volume, motion.solid_gain, step.end.air);
+  take_place(grid, flow.air, pores.porosity, step.face_volume, room, step.end.air);
+  return room;
 }
 
 template class MovedAir<2>;
 template class MovedAir<3>;
-template void move_liquid(const Grid<2>&, const SolidMotion&, const MixedState<2>&,
-                          std::vector<double>, const std::vector<double>&, MixedStep<2>&);
-template void move_liquid(const Grid<3>&, const SolidMotion&, const MixedState<3>&,
-                          std::vector<double>, const std::vector<double>&, MixedStep<3>&);
+template ElementPores element_pores(const Grid<2>&, std::vector<double>, std::vector<double>,
+                                    std::vector<double>);
+template std::vector<double> move_liquid(const Grid<2>&, const SolidMotion&, const MixedState<2>&,
+                                         ElementPores, MixedStep<2>&);
+template ElementPores element_pores(const Grid<3>&, std::vector<double>, std::vector<double>,
+                                    std::vector<double>);
+template std::vector<double> move_liquid(const Grid<3>&, const SolidMotion&, const MixedState<3>&,
+                                         ElementPores, MixedStep<3>&);
 template std::vector<double> saturation_of(const Grid<2>&, const ElementField<2>&,
                                            const std::vector<double>&);
 template std::vector<double> saturation_of(const Grid<3>&, const ElementField<3>&,

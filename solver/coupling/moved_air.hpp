@@ -11,22 +11,37 @@
 
 namespace suffuse {
 
+/// What elements hold before a motion.
+struct ElementPores {
+  std::vector<double> porosity;    ///< of water and air
+  std::vector<double> soil_share;  ///< of the pores, see `FlowSoils`; empty if no air moves
+  /// Volume between the outer boundary of the mesh and soil that has sunk below it in air, m3,
+  /// which is not part of the pores; negative where soil has swelled beyond it.
+  std::vector<double> gap;
+};
+
+/// \param without_solid  share of each element that no solid fills
+/// \param porosity       of water and air, per element
+template <int Dim>
+ElementPores element_pores(const Grid<Dim>& grid, std::vector<double> without_solid,
+                           std::vector<double> porosity, std::vector<double> soil_share);
+
 /// Solid and water that cross faces with moving soil, with the porosity and the saturation of the
 /// element that they come from.
 template <int Dim>
 class MovedAir {
  public:
   /// \param flow         before the motion, with air
-  /// \param porosity     per element
-  /// \param soil_share   of the pores of each element, see `FlowSoils`
   /// \param face_volume  of soil, S_f, along the normal of each face, m3
-  MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow, const std::vector<double>& porosity,
-           const std::vector<double>& soil_share, const std::vector<double>& face_volume);
+  MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow, ElementPores pores,
+           const std::vector<double>& face_volume);
 
   /// Solid and water, m3: the soil without its air.
   [[nodiscard]] double without_air(int face) const { return solid_[face] + water_[face]; }
   /// Growth of an element's pores as this solid leaves it, m3.
   [[nodiscard]] double pores_gained(int e) const;
+  /// Growth of an element's room as it takes in this solid, m3, and as its gap closes.
+  [[nodiscard]] double room_gained(int e, double solid) const;
   /// Water that crosses a face with the solid, m3. Solid beyond that assumed here displaces water
   /// by the saturation of the element that it enters.
   /// \param solid       s_f, m3
@@ -40,20 +55,20 @@ class MovedAir {
                                 const std::vector<double>& of_element) const;
 
   const Grid<Dim>& grid_;
-  std::vector<double> solid_;  ///< per face, m3
+  std::vector<double> solid_;  ///< per face, m3; at outer faces what closes the gap
   std::vector<double> water_;  ///< per face, m3
 };
 
 /// Adds the water that moved with the soil to the volumes of `step`, which are relative to the
 /// soil. Sets the air to that after the motion.
-/// \param motion      committed
-/// \param flow        before the step
-/// \param porosity    per element, before the motion
-/// \param soil_share  see `MovedAir`; empty if no air moves
+/// Returns the growth of each element's room for water and air, m3.
+/// \param motion  committed
+/// \param flow    before the step
+/// \param pores   before the motion
 template <int Dim>
-void move_liquid(const Grid<Dim>& grid, const SolidMotion& motion, const MixedState<Dim>& flow,
-                 std::vector<double> porosity, const std::vector<double>& soil_share,
-                 MixedStep<Dim>& step);
+std::vector<double> move_liquid(const Grid<Dim>& grid, const SolidMotion& motion,
+                                const MixedState<Dim>& flow, ElementPores pores,
+                                MixedStep<Dim>& step);
 
 /// S of each element.
 template <int Dim>
