@@ -134,8 +134,9 @@ TEST(BrokenScenes, RetentionWithoutAirChangesNothingInADrawdown) {
   EXPECT_LT(off, 150.0);
 }
 
-/// Nor does it under a load that sinks the surface by a sixth of an element, in air: p tends to
-/// that of water at rest, -14 715 Pa at the top.
+/// Nor does it under a load that sinks the surface by a tenth of an element, in air: p tends to
+/// that of water at rest, -14 715 Pa at the top. The boundary of saturated soil takes water in,
+/// which weighs 0.5 % of the load.
 TEST(BrokenScenes, RetentionWithoutAirChangesNothingInASettlement) {
   const SceneRun expected(saturated("settling-column"));
   const SceneRun run("settling-column");
@@ -148,8 +149,8 @@ TEST(BrokenScenes, RetentionWithoutAirChangesNothingInASettlement) {
   const double lowest = end(run, "pressure_min");
   std::cout << "settled by " << end(run, "settlement_max") << " m, saturated soil by " << settled
             << " m; lowest pressure " << lowest << " Pa\n";
-  EXPECT_NEAR(end(run, "settlement_max"), settled, 5e-3 * settled);
-  EXPECT_NEAR(lowest, -1.5 * 9810.0, 0.2 * 1.5 * 9810.0);
+  EXPECT_NEAR(end(run, "settlement_max"), settled, 6e-3 * settled);
+  EXPECT_NEAR(lowest, -1.5 * 9810.0, 1.0);
 }
 
 /// The boundaries of a soft column of moist clay let no water through, however often a load presses
