@@ -49,6 +49,12 @@ double just_before(double start, double time) {
 /// First step of soil that moves from the start, over the time of its change.
 constexpr double first_step_of_soil = 1e-2;
 
+/// Porosity of what fills each element: a gap before soil that moves is no pore.
+std::vector<double> own_porosity(std::vector<double> n, const std::vector<double>& without_solid) {
+  for (std::size_t e = 0; e < n.size(); ++e) n[e] /= n[e] + 1.0 - without_solid[e];
+  return n;
+}
+
 /// The last flow of another run.
 template <int Dim>
 MixedFlow<Dim> flow_of(const EarlierFlow<Dim>& earlier, const Grid<Dim>& grid,
@@ -427,6 +433,7 @@ FlowState<Dim> ImplicitFlow<Dim>::state(double time) const {
     result.saturation.push_back(1.0 - element_sum<Dim>(now_.state.air[e]) / pores);
   }
   if (!result.saturation.empty()) result.porosity = this->coefficients_.porosity;
+  if (solid_.moves()) result.porosity = own_porosity(result.porosity, solid_.element_porosity());
   result.relative_conductivity = scheme_.relative_conductivity(now_.state.face_pressure);
   result.eos_error = eos_error_;
   result.pressure_overshoot = scales_.overshoot(this->grid().ranks(), now_.state.face_pressure);
