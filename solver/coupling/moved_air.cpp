@@ -50,14 +50,14 @@ void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
   }
 }
 
-/// The part of the volume `moved`, m3, by which soil swells at an outer face that closes the gap
-/// there. In air the gap takes it all, up to a size of `limit`; under water soil only closes a gap,
-/// or shrinks back to the boundary.
-double closes_gap(double& gap, double moved, double limit, bool under_water) {
-  double closed = gap - std::clamp(gap - moved, -limit, limit);
-  if (under_water) closed = moved > 0.0 ? std::clamp(gap, 0.0, moved) : std::clamp(gap, moved, 0.0);
-  gap -= closed;
-  return closed;
+/// Soil swells at an outer face by the volume `moved`, m3. Returns the part that the gap takes, and
+/// reduces the gap by it. In air the gap takes all, up to a size of `limit`. Under water soil only
+/// closes a gap, or shrinks back to the boundary.
+double taken_by_gap(double& gap, double moved, double limit, bool under_water) {
+  double taken = gap - std::clamp(gap - moved, -limit, limit);
+  if (under_water) taken = moved > 0.0 ? std::clamp(gap, 0.0, moved) : std::clamp(gap, moved, 0.0);
+  gap -= taken;
+  return taken;
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow, Elem
       const bool under_water = flow.face_pressure[f] > 0.0;
       const double room = pores.porosity[e] * grid.volume[e] + pores.gap[e];
       const double limit = largest_gap * pores.soil_share[e] * room;
-      solid_[f] = closes_gap(pores.gap[e], face_volume[f], limit, under_water);
+      solid_[f] = taken_by_gap(pores.gap[e], face_volume[f], limit, under_water);
       if (under_water) water_[f] = face_volume[f] - solid_[f];
       continue;
     }

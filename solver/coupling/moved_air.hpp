@@ -55,7 +55,7 @@ class MovedAir {
                                 const std::vector<double>& of_element) const;
 
   const Grid<Dim>& grid_;
-  std::vector<double> solid_;  ///< per face, m3; at outer faces what closes the gap
+  std::vector<double> solid_;  ///< per face, m3; at outer faces what the gap takes
   std::vector<double> water_;  ///< per face, m3
 };
 
