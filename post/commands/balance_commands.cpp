@@ -57,9 +57,9 @@ void declare_history(CLI::App& command, TableOptions& o) {
 }
 
 void history(const TableOptions& o) {
-  parse_time_unit(o.table.time_unit, "suffuse-post history");
+  const TimeUnit unit = parse_time_unit(o.table.time_unit, "suffuse-post history");
   const ResultsReader results(o.results);
-  if (o.table.path != "-") std::cout << history_text(results);
+  if (o.table.path != "-") std::cout << history_text(results, unit);
   if (!o.table.path.empty()) write_csv(results, o.table, results.history());
 }
 

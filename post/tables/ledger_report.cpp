@@ -180,17 +180,21 @@ void check_balances(const std::vector<Balance>& balances, double tolerance) {
   }
 }
 
-std::string history_text(const ResultsReader& results) {
-  const Table history = results.history();
+std::string history_text(const ResultsReader& results, const TimeUnit& unit) {
+  const Table history = with_units(results.history(), results.dimension(), unit);
   if (history.rows() == 0) throw FileError(results.folder() + ": history.csv has no rows yet");
+  const std::vector<std::string> headings = history.headings();
+  const std::string longest =
+      std::ranges::max(headings, {}, [](const std::string& h) { return h.size(); });
+  const int column = -static_cast<int>(longest.size()) - 2;
   std::string text = results.folder() + ": " + results.status() + ", " +
-                     std::to_string(history.rows()) + " rows\n" + padded("column", -22);
+                     std::to_string(history.rows()) + " rows\n" + padded("column", column);
   for (const auto* head : {"first", "last", "smallest", "largest"}) text += padded(head, 15);
   text += "\n";
-  for (std::size_t k = 0; k < history.names.size(); ++k) {
+  for (std::size_t k = 0; k < headings.size(); ++k) {
     const auto& values = history.columns[k];
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    text += padded(history.names[k], -22);
+    text += padded(headings[k], column);
     for (const double value : {values.front(), values.back(), *low, *high}) {
       text += padded(in_column(value, "%.8g"), 15);
     }

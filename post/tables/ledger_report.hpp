@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "files/time_unit.hpp"
 #include "results/reader.hpp"
 
 namespace suffuse {
@@ -40,7 +41,7 @@ void check_balances(const std::vector<Balance>& balances, double tolerance);
 /// number: masses can balance although the pores cannot hold the water.
 void check_stored_water(const ResultsReader& results);
 
-/// First, last, smallest and largest value of every column of the history.
-std::string history_text(const ResultsReader& results);
+/// First, last, smallest and largest value of every column of the history, with its unit.
+std::string history_text(const ResultsReader& results, const TimeUnit& unit);
 
 }  // namespace suffuse

@@ -152,14 +152,6 @@ std::string cut_unit(std::string& name) {
   return unit;
 }
 
-std::vector<std::string> headings(const Table& table) {
-  std::vector<std::string> result = table.names;
-  for (std::size_t k = 0; k < table.units.size(); ++k) {
-    if (!table.units[k].empty()) result[k] += " [" + table.units[k] + "]";
-  }
-  return result;
-}
-
 constexpr const char* points_dataset = "/VTKHDF/Points";
 
 /// Number of rows of a table with this number of columns.
@@ -194,6 +186,14 @@ void refuse_links(const Hdf5File& file, const std::string& grid) {
 }
 
 }  // namespace
+
+std::vector<std::string> Table::headings() const {
+  std::vector<std::string> result = names;
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    if (!units[k].empty()) result[k] += " [" + units[k] + "]";
+  }
+  return result;
+}
 
 bool Table::has(const std::string& name) const {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -258,7 +258,7 @@ std::vector<NamedTable> read_tables(const std::string& path, const std::string& 
 }
 
 void write_table(const std::string& path, const Table& table) {
-  std::string text = joined(headings(table), "") + "\n";
+  std::string text = joined(table.headings(), "") + "\n";
   for (std::size_t row = 0; row < table.rows(); ++row)
     text += joined(cells_of(table, row), "") + "\n";
   TextOutput(path).write(text);
@@ -269,7 +269,7 @@ void write_tables(const std::string& path, const std::string& by,
   std::string text;
   std::size_t rows = 0;
   for (const auto& [name, table] : tables) {
-    if (text.empty()) text = joined(headings(table), by) + "\n";
+    if (text.empty()) text = joined(table.headings(), by) + "\n";
     rows = std::max(rows, table.rows());
   }
   for (std::size_t row = 0; row < rows; ++row) {

@@ -22,6 +22,8 @@ struct Table {
   std::vector<std::string> units{};  ///< of each column, "" if not given; may be empty
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+  /// Names with units, as files have them: "t [s]".
+  [[nodiscard]] std::vector<std::string> headings() const;
   [[nodiscard]] bool has(const std::string& name) const;
   /// Throws FileError when there is no such column.
   [[nodiscard]] const std::vector<double>& column(const std::string& name) const;

@@ -7,6 +7,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <cstdlib>
+#include <regex>
 
 #include "post/synthetic_results.hpp"
 #include "results/reader.hpp"
@@ -219,6 +220,9 @@ TEST_F(PostCommand, HistoryPrintsAndCopies) {
   }
   const Outcome shown = post("history " + run + " --csv - --time-unit min");
   EXPECT_EQ(shown.out.find("t [min],dt [s],porosity_mean [-],"), 0U) << shown.out;
+  const Outcome ranges = post("history " + run + " --time-unit min");
+  EXPECT_TRUE(std::regex_search(ranges.out, std::regex("\nt \\[min\\] +0 +2 +0 +2\n")))
+      << ranges.out;
 }
 
 TEST_F(PostCommand, BoundariesAreSummedUpAndWritten) {

@@ -36,20 +36,26 @@ release_labels := verification sanitized post timing install ranks
 # These take half of the time of all; other tests cover their parts. RELEASE_TESTS=all runs them.
 long_tests := $(addprefix verification_test.,Bank.EndsInItsLastEquilibriumWhereTheSceneSaysSo \
     Consolidation.(LargeStrain|OfCamClaySettlesAsItsElementDoes) \
-    ErodingOedometer.TheSameWithLiquidPoints ErosionAndDeposition.BalanceInDoublePoint \
+    DryColumn.CollapsesFromTheStartAndRunsOutAboutAsFarAsSand \
+    ErodingOedometer.TheSameWithLiquidPoints ErosionAndDeposition.BalanceInDoublePoint ExactInSpace.FloodedDiscInSealedGround \
     Footing.OnSoilOf30DegreesCarriesReissnersLoads \
-    InfiniteSlope.FailsWhenItsFrictionHasFallenWithItsFines Levee.KeepsItsMassesWhateverHappens \
+    InfiniteSlope.FailsWhenItsFrictionHasFallenWithItsFines LargeStrain.ReachesItsEndThoughPoresCloseAtTheSurface \
+    Levee.KeepsItsMassesWhateverHappens \
     PoissonsRatios/Mandel.PressureInTheMiddleFirstRises/[01] \
     RectangularDam.WithASeepageFaceLetsThroughCharnysDischarge RectangularDam.WithSuctionLetsThroughTheExactDischarge \
     Slope.(HasTheFactorOfGriffithsAndLane|HasTheSameFactorToTheLastBitOnTwoThreads) \
-    Slope.(WithItsSurfaceInsideElementsHasThisFactorToo|WithoutDilationHasAFactorSlightlyLower) \
+    Slope.(WithALooseLumpOnItsCrestHasTheSameFactor|WithItsSurfaceInsideElementsHasThisFactorToo) \
+    Slope.WithoutDilationHasAFactorSlightlyLower \
     SpaceBank.(GoesOnFromWithinItsSlide|LosesItsFinesFailsAndRunsOutUnderWater) SpaceFooting.SquareCarriesItsPublishedLoad \
     Strip.OnSoilWithoutDilationHasAFactorThatTheMeshHardlyChanges \
     Trial.IsDecidedInPseudoTimeAsByNewtonsMethod) \
   $(addprefix verification_of_parts_test.Formulations/ExtrudedScene.TendsToTheSameAsThePlaneOne/,SinglePoint DoublePoint DoublePointWithLength) \
   $(addprefix solver_process_long_test.Modes/Determinism.,StepsEndOnOutputs/moving_soil_implicit TwiceTheSameFiles/moving_soil_implicit) \
-  solver_process_long_test.StrengthTable.AirAboveTheSoilChangesNothing \
-  $(foreach ranks,4 5,ranks_test_on_$(ranks) same_files_basin_on_$(ranks)) near_files_rest_on_4 same_files_points_on_5
+  $(addprefix solver_process_long_test.,StrengthTable.(AirAboveTheSoilChangesNothing|SlopeOfDrySandOnFreeTriangles) \
+    ChangingBoundaries.DepositionEndsAtItsLargestFlux) \
+  estimate_test.Estimate.LooksAheadInScenesOfManyKinds \
+  $(foreach ranks,4 5,ranks_test_on_$(ranks) same_files_basin_on_$(ranks)) same_files_points_on_5 \
+  $(addprefix near_files_,rest_on_4 suction_on_2 deposition_without_soil_on_4)
 .PHONY: build-tests test-release
 build-tests: provision
 	@$(call build_preset,release,$(if $(RELEASE_TESTS),,--target programs suffuse-stress suffuse-studies \
