@@ -65,13 +65,14 @@ FlowProgress FlowOfMovingSolid<Dim>::commit(CoupledStep<Dim> step) {
   if (failure_.has_inertia()) {
     failure_.finish_motion(duration, solid_.take_velocities(*step.motion));
   }
-  ElementPores pores = element_pores(grid_, solid_.element_porosity(),
-                                     step.flow.forcing.back().coefficients.porosity,
-                                     flow_.scheme().soils().soil_share);
+  const FlowForcing<Dim>& forcing = step.flow.forcing.back();
+  ElementPores pores =
+      element_pores(grid_, solid_.element_porosity(), forcing.coefficients.porosity,
+                    flow_.scheme().soils().soil_share);
   const auto [motion, kinetics] = solid_.commit(*std::move(step.motion));
   step.flow.relative = step.flow.found.face_volume;
-  step.flow.room_gained =
-      move_liquid(grid_, motion, flow_.mixed_state(), std::move(pores), step.flow.found);
+  step.flow.room_gained = move_liquid(grid_, forcing.conditions, motion, flow_.mixed_state(),
+                                      std::move(pores), step.flow.found);
   FlowProgress progress = flow_.commit(std::move(step.flow));
   failure_.finish_step(progress.end, flow_.next_step(), kinetics);
   if (flow_.is_breakpoint(progress.end)) failure_.expect_short_steps();

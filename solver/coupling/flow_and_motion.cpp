@@ -366,7 +366,7 @@ std::vector<double> FlowAndMotion<Dim>::without_air(const SolidMotion& motion,
                                                     const FlowSoils<Dim>& soils,
                                                     FlowForcing<Dim>& forcing) const {
   const MovedAir<Dim> moved(
-      grid_, state,
+      grid_, forcing.conditions, state,
       element_pores(grid_, solid_.element_porosity(), start.porosity, soils.soil_share),
       motion.face_volume);
   std::vector<double> result(grid_.face_count());

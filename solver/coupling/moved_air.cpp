@@ -10,7 +10,7 @@ namespace {
 
 /// Largest gap over the room of an element for gap, water and air. Points leave an element all at
 /// once: the rest of the room is for the solid of one that is still there.
-constexpr double largest_gap = 0.5;
+constexpr double largest_gap = 0.9;
 
 /// Adds `missing`, m3, to the air at the sides of an element in equal parts, as far as each side
 /// has room or air. If no side has any, the rest is added in equal parts nevertheless.
@@ -51,11 +51,12 @@ void take_place(const Grid<Dim>& grid, const ElementField<Dim>& before,
 }
 
 /// Soil swells at an outer face by the volume `moved`, m3. Returns the part that the gap takes, and
-/// reduces the gap by it. In air the gap takes all, up to a size of `limit`. Under water soil only
-/// closes a gap, or shrinks back to the boundary.
-double taken_by_gap(double& gap, double moved, double limit, bool under_water) {
+/// reduces the gap by it. The gap takes all, up to a size of `limit`. With water outside, which
+/// follows the soil, soil only closes a gap, or shrinks back to the boundary.
+double taken_by_gap(double& gap, double moved, double limit, bool water_outside) {
   double taken = gap - std::clamp(gap - moved, -limit, limit);
-  if (under_water) taken = moved > 0.0 ? std::clamp(gap, 0.0, moved) : std::clamp(gap, moved, 0.0);
+  if (water_outside)
+    taken = moved > 0.0 ? std::clamp(gap, 0.0, moved) : std::clamp(gap, moved, 0.0);
   gap -= taken;
   return taken;
 }
@@ -71,7 +72,8 @@ ElementPores element_pores(const Grid<Dim>& grid, std::vector<double> without_so
 }
 
 template <int Dim>
-MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow, ElementPores pores,
+MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                        const MixedState<Dim>& flow, ElementPores pores,
                         const std::vector<double>& face_volume)
     : grid_(grid), solid_(face_volume.size(), 0.0), water_(solid_) {
   const std::vector<double> saturation = saturation_of(grid, flow.air, pores.porosity);
@@ -82,11 +84,12 @@ MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow, Elem
     // Before the outer boundary of the mesh is water, or air, which is not counted.
     if (grid.is_outer(f)) {
       const int e = grid.face_left[f];
-      const bool under_water = flow.face_pressure[f] > 0.0;
+      const bool under_pressure = flow.face_pressure[f] > 0.0;
+      const bool water_outside = under_pressure && conditions[f].kind == FaceKind::pressure;
       const double room = pores.porosity[e] * grid.volume[e] + pores.gap[e];
       const double limit = largest_gap * pores.soil_share[e] * room;
-      solid_[f] = taken_by_gap(pores.gap[e], face_volume[f], limit, under_water);
-      if (under_water) water_[f] = face_volume[f] - solid_[f];
+      solid_[f] = taken_by_gap(pores.gap[e], face_volume[f], limit, water_outside);
+      if (under_pressure) water_[f] = face_volume[f] - solid_[f];
       continue;
     }
     // Porosity and saturation are those of the element that the soil comes from.
@@ -135,9 +138,9 @@ std::vector<double> saturation_of(const Grid<Dim>& grid, const ElementField<Dim>
 }
 
 template <int Dim>
-std::vector<double> move_liquid(const Grid<Dim>& grid, const SolidMotion& motion,
-                                const MixedState<Dim>& flow, ElementPores pores,
-                                MixedStep<Dim>& step) {
+std::vector<double> move_liquid(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                                const SolidMotion& motion, const MixedState<Dim>& flow,
+                                ElementPores pores, MixedStep<Dim>& step) {
   std::vector<double> room;
   if (pores.soil_share.empty()) {
     for (int f = 0; f < grid.face_count(); ++f) {
@@ -146,7 +149,7 @@ std::vector<double> move_liquid(const Grid<Dim>& grid, const SolidMotion& motion
     for (const double gain : motion.solid_gain) room.push_back(0.0 - gain);
     return room;
   }
-  const MovedAir<Dim> moved(grid, flow, pores, motion.face_volume);
+  const MovedAir<Dim> moved(grid, conditions, flow, pores, motion.face_volume);
   for (int e = 0; e < grid.mesh.element_count(); ++e) {
     pores.porosity[e] += moved.pores_gained(e) / grid.volume[e];
     room.push_back(moved.room_gained(e, motion.solid_gain[e]));
@@ -163,12 +166,14 @@ template class MovedAir<2>;
 template class MovedAir<3>;
 template ElementPores element_pores(const Grid<2>&, std::vector<double>, std::vector<double>,
                                     std::vector<double>);
-template std::vector<double> move_liquid(const Grid<2>&, const SolidMotion&, const MixedState<2>&,
-                                         ElementPores, MixedStep<2>&);
+template std::vector<double> move_liquid(const Grid<2>&, const std::vector<FaceCondition>&,
+                                         const SolidMotion&, const MixedState<2>&, ElementPores,
+                                         MixedStep<2>&);
 template ElementPores element_pores(const Grid<3>&, std::vector<double>, std::vector<double>,
                                     std::vector<double>);
-template std::vector<double> move_liquid(const Grid<3>&, const SolidMotion&, const MixedState<3>&,
-                                         ElementPores, MixedStep<3>&);
+template std::vector<double> move_liquid(const Grid<3>&, const std::vector<FaceCondition>&,
+                                         const SolidMotion&, const MixedState<3>&, ElementPores,
+                                         MixedStep<3>&);
 template std::vector<double> saturation_of(const Grid<2>&, const ElementField<2>&,
                                            const std::vector<double>&);
 template std::vector<double> saturation_of(const Grid<3>&, const ElementField<3>&,

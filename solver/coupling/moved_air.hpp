@@ -33,8 +33,8 @@ class MovedAir {
  public:
   /// \param flow         before the motion, with air
   /// \param face_volume  of soil, S_f, along the normal of each face, m3
-  MovedAir(const Grid<Dim>& grid, const MixedState<Dim>& flow, ElementPores pores,
-           const std::vector<double>& face_volume);
+  MovedAir(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+           const MixedState<Dim>& flow, ElementPores pores, const std::vector<double>& face_volume);
 
   /// Solid and water, m3: the soil without its air.
   [[nodiscard]] double without_air(int face) const { return solid_[face] + water_[face]; }
@@ -66,9 +66,9 @@ class MovedAir {
 /// \param flow    before the step
 /// \param pores   before the motion
 template <int Dim>
-std::vector<double> move_liquid(const Grid<Dim>& grid, const SolidMotion& motion,
-                                const MixedState<Dim>& flow, ElementPores pores,
-                                MixedStep<Dim>& step);
+std::vector<double> move_liquid(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
+                                const SolidMotion& motion, const MixedState<Dim>& flow,
+                                ElementPores pores, MixedStep<Dim>& step);
 
 /// S of each element.
 template <int Dim>

@@ -154,9 +154,8 @@ typename FlowSolver<Dim>::SurfaceSoil FlowSolver<Dim>::surface_soil(int element,
   if (filling.empty()) return {porosity, 1.0};
   const SoilFilling& part = filling[element];
   if (part.share == 1.0) return {porosity + part.excess, 1.0};
-  if (part.share == 0.0) {
-    return {initial_porosity_[element], soils_.is_soil(element) ? 1.0 / thinnest : 1.0};
-  }
+  if (!soils_.is_soil(element)) return {initial_porosity_[element], 1.0};
+  if (part.share == 0.0) return {initial_porosity_[element], 1.0 / thinnest};
   return {part.porosity, 1.0 / std::max(part.share, thinnest)};
 }
 

@@ -76,7 +76,7 @@ ImplicitFlow<Dim>::ImplicitFlow(const Case<Dim>& c, const Grid<Dim>& grid,
       options_(options),
       solid_(solid),
       scheme_(grid, scheme_settings(this->scene(), options), this->gravity(),
-              flow_soils(this->scene(), solid.soils(), solid.filling()), leaky_faces(c, grid)),
+              flow_soils(this->scene(), solid), leaky_faces(c, grid)),
       has_gravity_(this->gravity().norm() > 0.0),
       follows_pores_(depends_on_pores(this->scene(), options) ||
                      has_condition(grid, this->conditions_, FaceKind::velocity) || has_gravity_),

@@ -119,7 +119,7 @@ class ImplicitFlow final : public FlowSolver<Dim> {
   [[nodiscard]] std::vector<double> excess_in(const MixedStep<Dim>& step, double dt) const;
   void follow_soils() {
     if (solid_.moves()) {
-      scheme_.follow(flow_soils(this->scene(), solid_.soils(), solid_.filling()));
+      scheme_.follow(flow_soils(this->scene(), solid_, this->coefficients_.porosity));
     }
   }
   /// Coefficients with pores that are forecast for a time.

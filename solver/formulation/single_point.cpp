@@ -65,8 +65,8 @@ void SinglePoint<Dim>::start_from(const EarlierState<Dim>& earlier) {
   EarlierState<Dim> state = earlier;
   const std::vector<int> changed = this->start_solid(earlier);
   fill_pores(
-      this->grid_, flow_soils(this->scene(), this->soils_, this->solid_->filling()),
-      this->scene().liquid, this->solid_->element_porosity(), earlier.flow, changed,
+      this->grid_, flow_soils(this->scene(), *this->solid_), this->scene().liquid,
+      this->solid_->element_porosity(), earlier.flow, changed,
       {state.fines.liquid_volume, state.fines.fines_volume, state.flow.air, state.water_mass});
   fines_->start_from(state.fines);
   this->start_flow(state, [this, &state] {

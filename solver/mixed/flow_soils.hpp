@@ -11,7 +11,6 @@
 #include "mixed/flow.hpp"
 #include "physics/retention/retention_law.hpp"
 #include "solid/skeleton.hpp"
-#include "solid/soil_map.hpp"
 
 namespace suffuse {
 
@@ -59,13 +58,12 @@ struct FlowSoils {
     };
     return {of(retention[e]), is_mixed(e) ? of(free_space) : 0.0};
   }
-  /// Share of an element's suction that acts on the soil: the soil's share of the pores times S_e =
-  /// (S - S_r) / (1 - S_r) >= 0 (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515).
+  /// Share of an element's suction that acts on the soil: S_e = (S - S_r) / (1 - S_r) >= 0 of what
+  /// fills the element (Lu, Godt and Wu, Water Resour. Res. 46 (2010) W05515).
   [[nodiscard]] double suction_share(int e, double saturation) const {
     double residual = retention[e].residual_saturation;
     if (is_mixed(e)) residual = std::lerp(free_space.residual_saturation, residual, soil_share[e]);
-    const double effective = std::max(0.0, (saturation - residual) / (1.0 - residual));
-    return air_moves() ? soil_share[e] * effective : effective;
+    return std::max(0.0, (saturation - residual) / (1.0 - residual));
   }
 
  private:
@@ -79,9 +77,9 @@ struct FlowSoils {
 };
 
 /// Retention and bedding per element. Elements that soil has left have the retention of free space.
-/// \param filling  per element; empty: soil fills all elements that it is in
+/// \param porosity  per element, of water and air; empty: of all that is not solid
 template <int Dim>
-FlowSoils<Dim> flow_soils(const Scene& scene, const SoilMap<Dim>& soils,
-                          const std::vector<SoilFilling>& filling);
+FlowSoils<Dim> flow_soils(const Scene& scene, const Skeleton<Dim>& solid,
+                          const std::vector<double>& porosity = {});
 
 }  // namespace suffuse

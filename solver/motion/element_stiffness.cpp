@@ -7,6 +7,12 @@
 #include "physics/head.hpp"
 
 namespace suffuse {
+namespace {
+
+/// Soil that lacks at most this share of an element fills it.
+constexpr double missing_by_round_off = 1e-12;
+
+}  // namespace
 
 template <int Dim>
 std::vector<double> oedometer_moduli(const SoilMap<Dim>& soils,
@@ -69,13 +75,15 @@ std::vector<double> diffusivity(const Grid<Dim>& grid, const SoilMap<Dim>& soils
   return result;
 }
 
-template <int Dim>
-std::vector<SoilFilling> soil_filling(const Grid<Dim>& grid, const ElementClasses& classes,
-                                      const SoilVolumes& own, const SoilVolumes& smoothed,
+std::vector<SoilFilling> soil_filling(const ElementClasses& classes, const SoilVolumes& own,
+                                      const SoilVolumes& smoothed,
                                       const std::vector<double>& element_porosity) {
   std::vector<SoilFilling> result(classes.full.size());
   for (std::size_t e = 0; e < result.size(); ++e) {
-    const double share = std::min(1.0, smoothed.soil[e] / grid.volume[e]);
+    const double solid = 1.0 - element_porosity[e];
+    const double of_soil = 1.0 - smoothed.porosity(e);
+    double share = of_soil > 0.0 ? solid / of_soil : 0.0;
+    if (share > 1.0 - missing_by_round_off) share = 1.0;
     const double full = classes.full[e];
     result[e] = {std::lerp(share, 1.0, full),
                  std::lerp(smoothed.porosity(e), own.porosity(e), full), 0.0};
@@ -96,11 +104,5 @@ template std::vector<double> diffusivity(const Grid<2>&, const SoilMap<2>&, cons
 template std::vector<double> diffusivity(const Grid<3>&, const SoilMap<3>&, const PointsByElement&,
                                          std::vector<double>, const std::vector<double>&,
                                          const std::vector<double>&);
-template std::vector<SoilFilling> soil_filling(const Grid<2>&, const ElementClasses&,
-                                               const SoilVolumes&, const SoilVolumes&,
-                                               const std::vector<double>&);
-template std::vector<SoilFilling> soil_filling(const Grid<3>&, const ElementClasses&,
-                                               const SoilVolumes&, const SoilVolumes&,
-                                               const std::vector<double>&);
 
 }  // namespace suffuse

@@ -51,9 +51,8 @@ struct SoilVolumes {
 /// \param own       of the points of each element
 /// \param smoothed  of the points, smoothed by nodes
 /// \param element_porosity  that motion has carried between elements
-template <int Dim>
-std::vector<SoilFilling> soil_filling(const Grid<Dim>& grid, const ElementClasses& classes,
-                                      const SoilVolumes& own, const SoilVolumes& smoothed,
+std::vector<SoilFilling> soil_filling(const ElementClasses& classes, const SoilVolumes& own,
+                                      const SoilVolumes& smoothed,
                                       const std::vector<double>& element_porosity);
 
 }  // namespace suffuse

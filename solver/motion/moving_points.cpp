@@ -122,9 +122,8 @@ void MovingSkeleton<Dim>::find_filling() {
   };
   // Volumes at the surface are smoothed by nodes: the drag would otherwise jump when points leave
   // an element.
-  filling_ =
-      soil_filling<Dim>(this->grid_, classes, SoilVolumes{sums(points_.volume), sums(solid)},
-                        SoilVolumes{smooth(points_.volume), smooth(solid)}, element_porosity());
+  filling_ = soil_filling(classes, SoilVolumes{sums(points_.volume), sums(solid)},
+                          SoilVolumes{smooth(points_.volume), smooth(solid)}, element_porosity());
 }
 
 // ---------------------------------------------------------------------------------------- results

@@ -170,6 +170,29 @@ TEST(BrokenScenes, LoadsBringNoWaterThroughAnImperviousTop) {
   for (const double mass : water) EXPECT_NEAR(mass, water.front(), 1e-9 * water.front());
 }
 
+/// Nor does a load that comes so fast that the pressure rises above that of the air.
+TEST(BrokenScenes, FastLoadsBringNoWaterThroughAnImperviousTop) {
+  const SceneRun run("settling-column",
+                     {"boundary[0].traction=[[0,0,0],[200,0,-2e4]]", "output.every=200"});
+  ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+  const std::vector<double> highest = run.results.history().column("pressure_max");
+  EXPECT_GT(*std::ranges::max_element(highest), 1.5e4);
+  EXPECT_LT(run.results.ledger().column("water_in").back(), 1e-8);  // kg, round-off
+  EXPECT_NEAR(run.results.history().column("pressure_min").back(), -1.5 * 9810.0, 1.0);
+}
+
+/// A prescribed flux is that of the water alone, while the soil swells.
+TEST(BrokenScenes, SwellingSoilTakesInThePrescribedFlux) {
+  const SceneRun run("settling-column",
+                     {"boundary[0]={on=\"top\",darcy_flux=1e-8}", "boundary[1].head=2.0",
+                      "initial.water_level=2.0", "soil.specimen.conductivity=1e-8", "time.end=2e6",
+                      "output.every=4e5", "output.snapshot_every=2e6"});
+  ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+  EXPECT_GT(run.results.history().column("displacement_max").back(), 1e-3);
+  const double entered = 1e-8 * 0.4 * 2e6 * 1000.0;
+  EXPECT_NEAR(run.results.ledger().column("water_in").back(), entered, 1e-9 * entered);
+}
+
 /// Hencky's law without lateral strain (Poisson's ratio 0): the soil carries a load p = E ln(1/J)/J
 /// on top. Drained soil has J = 0.83 and 15 % of pores at 4.5 kPa (45 s). Its pores close, J = 0.7,
 /// at 10.2 kPa, just above the whole load of 10 kPa.

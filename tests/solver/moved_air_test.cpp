@@ -25,6 +25,7 @@ class MovedAirTest : public testing::Test {
       shift_.push_back(normal.dot(Vector<2>(0.001, -0.002)));
     }
     state_.face_pressure.assign(shift_.size(), -1e3);
+    conditions_.resize(shift_.size());
     share_.assign(porosity_.size(), 1.0);
   }
 
@@ -32,6 +33,11 @@ class MovedAirTest : public testing::Test {
     std::vector<double> gap(porosity_.size());
     for (std::size_t e = 0; e < gap.size(); ++e) gap[e] = gap_ * grid_.volume[e];
     return {porosity_, share_, gap};
+  }
+  /// Water stands outside of all outer faces.
+  void flood() {
+    state_.face_pressure.assign(shift_.size(), 1e3);
+    for (FaceCondition& condition : conditions_) condition.kind = FaceKind::pressure;
   }
   [[nodiscard]] double outflow(int e, const std::vector<double>& through) const {
     double sum = 0.0;
@@ -44,6 +50,7 @@ class MovedAirTest : public testing::Test {
   Mesh<2> mesh_ = model::column_mesh(4, 4);
   Grid<2> grid_;
   std::vector<double> porosity_;
+  std::vector<FaceCondition> conditions_;
   MixedState<2> state_;
   std::vector<double> share_;  ///< of soil in the pores of elements
   double gap_ = 0.0;           ///< over the volume of elements
@@ -51,7 +58,7 @@ class MovedAirTest : public testing::Test {
 };
 
 TEST_F(MovedAirTest, ABodyThatMovesAsAWholeCarriesItsWater) {
-  const MovedAir<2> moved(grid_, state_, pores(), shift_);
+  const MovedAir<2> moved(grid_, conditions_, state_, pores(), shift_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   std::vector<char> inside(porosity_.size(), 1);
   for (int f = 0; f < grid_.face_count(); ++f) {
@@ -70,7 +77,7 @@ TEST_F(MovedAirTest, ABodyThatMovesAsAWholeCarriesItsWater) {
 
 /// The body's saturation, 0.5, does not change at the boundary, where it leaves room or needs it.
 TEST_F(MovedAirTest, SoilAtTheOuterBoundaryKeepsItsSaturation) {
-  const MovedAir<2> moved(grid_, state_, pores(), shift_);
+  const MovedAir<2> moved(grid_, conditions_, state_, pores(), shift_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     double gained = 0.0;  // of water
@@ -85,7 +92,7 @@ TEST_F(MovedAirTest, SoilAtTheOuterBoundaryKeepsItsSaturation) {
 
 TEST_F(MovedAirTest, AirTakesThePlaceOfFreeSpaceAtTheOuterBoundary) {
   share_.assign(porosity_.size(), 0.0);
-  const MovedAir<2> moved(grid_, state_, pores(), shift_);
+  const MovedAir<2> moved(grid_, conditions_, state_, pores(), shift_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (!grid_.is_outer(f)) continue;
@@ -96,8 +103,8 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfFreeSpaceAtTheOuterBoundary) {
 
 /// The volume that soil leaves at a boundary under water, or takes from it, is water.
 TEST_F(MovedAirTest, WaterTakesThePlaceOfSoilThatLeavesABoundaryUnderWater) {
-  state_.face_pressure.assign(shift_.size(), 1e3);
-  const MovedAir<2> moved(grid_, state_, pores(), shift_);
+  flood();
+  const MovedAir<2> moved(grid_, conditions_, state_, pores(), shift_);
   const std::vector<double> saturation(porosity_.size(), 0.5);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (!grid_.is_outer(f)) continue;
@@ -117,11 +124,11 @@ TEST_F(MovedAirTest, WaterTakesThePlaceOfSoilThatLeavesABoundaryUnderWater) {
 /// Under water soil that has sunk rises to the boundary first, and soil that has swelled shrinks
 /// back to it: water crosses for the rest.
 TEST_F(MovedAirTest, AGapClosesUnderWater) {
-  state_.face_pressure.assign(shift_.size(), 1e3);
+  flood();
   const std::vector<double> saturation(porosity_.size(), 0.5);
   for (const double gap : {-0.01, 0.01}) {
     gap_ = gap;
-    const MovedAir<2> moved(grid_, state_, pores(), shift_);
+    const MovedAir<2> moved(grid_, conditions_, state_, pores(), shift_);
     std::vector<double> left = pores().gap;
     for (int f = 0; f < grid_.face_count(); ++f) {
       if (!grid_.is_outer(f)) continue;
@@ -136,14 +143,29 @@ TEST_F(MovedAirTest, AGapClosesUnderWater) {
   }
 }
 
-/// No more than half of the room of an element is a gap. Beyond that soil leaves its place to air.
+/// A load presses soil from an impervious boundary, and its water is under pressure: no water comes
+/// to where the soil was.
+TEST_F(MovedAirTest, NoWaterCrossesAnImperviousBoundaryUnderPressure) {
+  state_.face_pressure.assign(shift_.size(), 1e3);
+  const MovedAir<2> moved(grid_, conditions_, state_, pores(), shift_);
+  const std::vector<double> saturation(porosity_.size(), 0.5);
+  for (int f = 0; f < grid_.face_count(); ++f) {
+    if (!grid_.is_outer(f)) continue;
+    EXPECT_EQ(moved.without_air(f), shift_[f]);
+    EXPECT_EQ(moved.water(f, 0.0, saturation), 0.0);
+  }
+}
+
+/// No more than nine tenths of the room of an element is a gap. Beyond that soil leaves its place
+/// to air.
 TEST_F(MovedAirTest, AGapIsSmallerThanThePores) {
-  gap_ = 0.4;
+  porosity_.assign(porosity_.size(), 0.08);
+  gap_ = 0.72;
   std::vector<double> falls(shift_.size(), 0.0);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (grid_.is_outer(f)) falls[f] = -1.0;
   }
-  const MovedAir<2> moved(grid_, state_, pores(), falls);
+  const MovedAir<2> moved(grid_, conditions_, state_, pores(), falls);
   for (int f = 0; f < grid_.face_count(); ++f) {
     if (!grid_.is_outer(f)) continue;
     EXPECT_NEAR(moved.without_air(f), 0.0, 1e-16);
@@ -154,11 +176,11 @@ TEST_F(MovedAirTest, SoilComesFromTheElementBehindIt) {
   int f = 0;
   while (grid_.is_outer(f) || shift_[f] <= 0.0) ++f;
   porosity_[grid_.face_right[f]] = 0.9;
-  const MovedAir<2> with(grid_, state_, pores(), shift_);
+  const MovedAir<2> with(grid_, conditions_, state_, pores(), shift_);
   EXPECT_NEAR(with.without_air(f), 0.8 * shift_[f], 1e-16);
   std::vector<double> back = shift_;
   for (double& v : back) v = -v;
-  const MovedAir<2> against(grid_, state_, pores(), back);
+  const MovedAir<2> against(grid_, conditions_, state_, pores(), back);
   const double air = 0.5 * 0.4;
   EXPECT_NEAR(against.without_air(f), (1.0 - air) * back[f], 1e-16);
 }
@@ -168,7 +190,7 @@ TEST_F(MovedAirTest, NoElementGivesWaterThatItDoesNotHave) {
   int f = 0;
   while (grid_.is_outer(f)) ++f;
   const std::vector<double> volume(grid_.face_count(), 0.0);
-  const MovedAir<2> still(grid_, state_, pores(), volume);
+  const MovedAir<2> still(grid_, conditions_, state_, pores(), volume);
   std::vector<double> saturation(porosity_.size(), 1.0);
   saturation[grid_.face_right[f]] = 0.0;
   EXPECT_DOUBLE_EQ(still.water(f, 0.01, saturation), 0.0);
@@ -190,7 +212,7 @@ TEST_F(MovedAirTest, AirTakesThePlaceOfWhatLeaves) {
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     motion.solid_gain[e] = -outflow(e, motion.solid_face_volume);
   }
-  const std::vector<double> room = move_liquid(grid_, motion, state_, pores(), step);
+  const std::vector<double> room = move_liquid(grid_, conditions_, motion, state_, pores(), step);
   for (int e = 0; e < grid_.mesh.element_count(); ++e) {
     const double gained = element_sum<2>(step.end.air[e]) - element_sum<2>(state_.air[e]);
     double left = outflow(e, step.face_volume) + outflow(e, motion.solid_face_volume);
@@ -219,7 +241,7 @@ TEST_F(MovedAirTest, AirOfASideStaysWithinItsRoom) {
       step.end.air[e] = {0.0, 0.5 * room, room};
       before[e] = {0.0, 0.5 * room, (1.0 + moved) * room};
     }
-    move_liquid(grid_, still, state_, pores(), step);
+    move_liquid(grid_, conditions_, still, state_, pores(), step);
     for (int e = 0; e < grid_.mesh.element_count(); ++e) {
       const double room = porosity_[e] * grid_.volume[e] / 3.0;
       for (const double air : step.end.air[e]) {
@@ -295,8 +317,8 @@ TEST(FlowSoils, MixWhereSoilFillsAPart) {
   EXPECT_NEAR(soils.at(1, pressure).saturation,
               0.25 * soil + 0.75 * soils.free_space.at(-0.4).saturation, 1e-15);
   expect_slopes([&](double x) { return soils.at(1, x); }, pressure, 1.0);
-  // Suction acts on the soil alone, by its effective saturation.
-  EXPECT_NEAR(soils.suction_share(1, 0.5125), 0.25 * 0.5, 1e-15);
+  // Suction acts by the effective saturation of both.
+  EXPECT_NEAR(soils.suction_share(1, 0.5125), 0.5, 1e-15);
   EXPECT_NEAR(soils.suction_share(0, 0.55), 0.5, 1e-15);
 }
 

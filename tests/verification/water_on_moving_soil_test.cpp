@@ -69,6 +69,35 @@ TEST(WaterOnMovingSoil, RetentionChangesNothingWhereSoilStaysFull) {
   EXPECT_NEAR(rise, expected_rise, 3e-3 * expected_rise);
 }
 
+/// Soil under air that the mesh has too retains as soil that ends where the mesh does, and drains
+/// as much water when the level under it falls.
+TEST(WaterOnMovingSoil, RetainsUnderFreeAirAsAtTheBoundary) {
+  const auto water = [&](bool has_air) {
+    Scene scene = elastic_column();
+    scene.soils[0].conductivity = 1e-6;
+    scene.gravity = {0.0, -9.81, 0.0};
+    scene.soils[0].retention = model::van_genuchten(0.5, 1.5, 0.1);
+    scene.water_level = 0.5;
+    BoundaryCondition bottom = model::fixed_on("bottom", Fixing::both);
+    bottom.head = TimeFunction{{{0.0, 0.5}, {1e4, 0.0}}};
+    scene.boundaries = {bottom};
+    hold(scene);
+    scene.time.end = 2e6;
+    const auto is_soil = [](const Vector<2>& x) { return x[1] < 1.6; };
+    const Mesh<2> mesh = has_air ? model::under_water(model::crossed_mesh(2, 10, 0.4, 2.0), is_soil)
+                                 : model::crossed_mesh(2, 8, 0.4, 1.6);
+    model::ModelRun run(model::make_case(mesh, scene));
+    const auto states = run.run({0.0, scene.time.end}).states;
+    return std::pair(states[0].ledger.water, states[0].ledger.water - states[1].ledger.water);
+  };
+  const auto [held, drained] = water(true);
+  const auto [expected_held, expected_drained] = water(false);
+  std::cout << "water " << held << " kg, without air " << expected_held << "; drained " << drained
+            << ", " << expected_drained << "\n";
+  EXPECT_NEAR(held, expected_held, 3e-4 * expected_held);
+  EXPECT_NEAR(drained, expected_drained, 0.02 * expected_drained);
+}
+
 /// The pressure at the base rises soon after the start: with incompressible water too, soil takes
 /// its time to swell by half of that pressure over its modulus.
 TEST(WaterOnMovingSoil, IncompressibleWaterStartsAtRest) {
