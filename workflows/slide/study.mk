@@ -2,7 +2,7 @@
 #>   slide              a levee that loses its fines under a flood, then its strength, and slides: pictures, a film,
 #>                      the factor of safety until then                       -> workflows/out/slide/
 #>   slide-images       the same, and its pictures into the documentation           -> docs/images/
-#>   slide-study        the moment at which it fails, by mesh and tolerance; takes a quarter of an hour
+#>   slide-study        the moment at which it fails, by mesh and tolerance; takes an hour
 
 slide_out  := $(OUT)/slide
 slide_stem := $(slide_out)/slide
