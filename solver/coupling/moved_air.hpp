@@ -15,8 +15,8 @@ namespace suffuse {
 struct ElementPores {
   std::vector<double> porosity;    ///< of water and air
   std::vector<double> soil_share;  ///< of the pores, see `FlowSoils`; empty if no air moves
-  /// Volume between the outer boundary of the mesh and soil that has sunk below it in air, m3,
-  /// which is not part of the pores; negative where soil has swelled beyond it.
+  /// Volume between the outer boundary of the mesh and soil that has sunk below it, without water
+  /// outside, m3. It is not part of the pores; negative where soil has swelled beyond the boundary.
   std::vector<double> gap;
 };
 

@@ -271,7 +271,8 @@ TEST(Bank, SlidesIntoAir) {
   EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, start.solid, 1e-12 * start.solid);
 }
 
-/// With 25 degrees in the end the bank may find a flatter shape instead, on elements of 0.25 m.
+/// With a friction of 25 degrees at the end, this bank of coarse elements becomes flatter, and
+/// rests in equilibrium.
 TEST(Bank, EndsInItsLastEquilibriumWhereTheSceneSaysSo) {
   Scene scene = bank();
   scene.soils[0].skeleton.friction = FinesFunction({{1.0, 33.0}, {0.0, 15.0}});
@@ -283,7 +284,7 @@ TEST(Bank, EndsInItsLastEquilibriumWhereTheSceneSaysSo) {
   EXPECT_EQ(row.failure_time, 0.0);
   EXPECT_EQ(row.inertia, 0.0);
   std::cout << "last equilibrium at " << run.model().time() << " s\n";
-  EXPECT_GT(run.model().time(), 5.0);
+  EXPECT_GT(run.model().time(), 8.0);
 }
 
 /// A run that is stored while soil slides resumes with the same bits, on another number of threads.
