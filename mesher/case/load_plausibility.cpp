@@ -39,7 +39,7 @@ class WaterLoads : private PlausibilityBase<Dim> {
   using Base::warn;
   using Base::warnings_;
 
-  /// An outer face on top of soil that moves.
+  /// An outer face on top of soil that moves, not of a wall or a well inside the mesh.
   struct Ground {
     Face face;  ///< as `face_key`
     Vector<Dim> centre;
@@ -53,11 +53,13 @@ class WaterLoads : private PlausibilityBase<Dim> {
   [[nodiscard]] std::vector<Ground> ground_that_moves() const {
     const FaceTable<Dim> faces(mesh_);
     const Vector<Dim> up = -Eigen::Map<const Vector<Dim>>(scene_.gravity.data()).normalized();
+    std::set<Face> of_slits;
+    for (const std::string& name : scene_.names_of_slits()) of_slits.merge(faces_of(name));
     std::vector<Ground> ground;
     for (int e = 0; e < mesh_.element_count(); ++e) {
       for (int a = 0; a <= Dim && soil_moves(e); ++a) {
         const Face face = face_opposite<Dim>(mesh_.elements[e], a);
-        if (faces.owners(face) != 1) continue;
+        if (faces.owners(face) != 1 || of_slits.contains(face_key<Dim>(face))) continue;
         Vector<Dim> centre = Vector<Dim>::Zero();
         for (const int i : face) centre += mesh_.nodes[i] / Dim;
         Vector<Dim> normal = face_normal<Dim>(mesh_, face).normalized();
@@ -69,12 +71,12 @@ class WaterLoads : private PlausibilityBase<Dim> {
     return ground;
   }
 
-  /// The faces of a boundary, as `face_key`.
-  [[nodiscard]] std::set<Face> faces_of(const BoundaryCondition& b) const {
+  /// The faces with a name, as `face_key`.
+  [[nodiscard]] std::set<Face> faces_of(const std::string& name) const {
     std::set<Face> faces;
     for (const BoundarySet<Dim>& set : mesh_.boundaries) {
       for (const Face& face : set.faces) {
-        if (set.name == b.on) faces.insert(face_key<Dim>(face));
+        if (set.name == name) faces.insert(face_key<Dim>(face));
       }
     }
     return faces;
@@ -85,7 +87,7 @@ class WaterLoads : private PlausibilityBase<Dim> {
     if (!b.pressure || b.traction || b.fix != Fixing::none) return;
     const auto [low, high] = b.pressure->range(0.0, scene_.time.end);
     if (high <= 0.0) return;
-    const std::set<Face> faces = faces_of(b);
+    const std::set<Face> faces = faces_of(b.on);
     if (std::ranges::none_of(ground, [&](const Ground& g) { return faces.contains(g.face); })) {
       return;
     }
@@ -103,7 +105,7 @@ class WaterLoads : private PlausibilityBase<Dim> {
       load = std::max(load, Eigen::Map<const Vector<Dim>>(components.data()).dot(down));
     }
     const double head = b.head->range(0.0, scene_.time.end).second;
-    const std::set<Face> faces = faces_of(b);
+    const std::set<Face> faces = faces_of(b.on);
     for (const Ground& g : ground) {
       const double depth = head - height(g.centre, scene_.gravity);
       const double pressure = unit_weight(scene_.liquid.density, scene_.gravity) * depth;
@@ -123,7 +125,7 @@ class WaterLoads : private PlausibilityBase<Dim> {
     std::set<Face> known;
     std::map<int, double> head_at;  // of the nodes of boundaries
     for (const BoundaryCondition& b : scene_.boundaries) {
-      for (const Face& face : faces_of(b)) {
+      for (const Face& face : faces_of(b.on)) {
         known.insert(face);
         if (!b.head || b.is_well()) continue;
         const double head = b.head->range(0.0, scene_.time.end).second;

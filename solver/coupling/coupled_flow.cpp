@@ -1,8 +1,8 @@
 #include "coupling/coupled_flow.hpp"
 
 #include <algorithm>
+#include <sstream>
 
-#include "coupling/moved_air.hpp"
 #include "mixed/implicit_thresholds.hpp"
 #include "motion/compressed_soil.hpp"
 
@@ -69,6 +69,7 @@ FlowProgress FlowOfMovingSolid<Dim>::commit(CoupledStep<Dim> step) {
   ElementPores pores =
       element_pores(grid_, solid_.element_porosity(), forcing.coefficients.porosity,
                     flow_.scheme().soils().soil_share);
+  check_gaps(pores, step.flow.start);
   const auto [motion, kinetics] = solid_.commit(*std::move(step.motion));
   step.flow.relative = step.flow.found.face_volume;
   step.flow.room_gained = move_liquid(grid_, forcing.conditions, motion, flow_.mixed_state(),
@@ -79,6 +80,22 @@ FlowProgress FlowOfMovingSolid<Dim>::commit(CoupledStep<Dim> step) {
   rise_ = std::move(step.rise);
   iterations_ += step.iterations;
   return progress;
+}
+
+template <int Dim>
+void FlowOfMovingSolid<Dim>::check_gaps(const ElementPores& pores, double start) {
+  if (warned_of_gap_) return;
+  const std::optional<int> element = element_with_full_gap(grid_, pores);
+  if (!element) return;
+  warned_of_gap_ = true;
+  const bool sank = pores.gap[*element] > 0.0;
+  std::ostringstream text;
+  text << "soil with a retention has " << (sank ? "sunk below" : "swelled beyond")
+       << " the boundary of the mesh in " << element_text(grid_, *element)
+       << " by more than its elements can follow, t = " << start
+       << " s: suction there is wrong from now on; give it room above (a region free_above, or one "
+          "with free = true) or larger elements";
+  flow_.warn(text.str());
 }
 
 template <int Dim>

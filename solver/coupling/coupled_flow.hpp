@@ -8,6 +8,7 @@
 
 #include "coupling/failure.hpp"
 #include "coupling/flow_and_motion.hpp"
+#include "coupling/moved_air.hpp"
 #include "flow/implicit_flow.hpp"
 
 namespace suffuse {
@@ -33,9 +34,13 @@ class FlowOfMovingSolid {
   [[nodiscard]] const Failure<Dim>& failure() const { return failure_; }
   /// Iterations between flow and motion since the start.
   [[nodiscard]] long iterations() const { return iterations_; }
-  void archive(auto& archive) { archive(failure_, rise_, iterations_); }
+  void archive(auto& archive) { archive(failure_, rise_, iterations_, warned_of_gap_); }
 
  private:
+  /// Adds a warning, once, where soil has moved farther from the boundary of the mesh than an
+  /// element can hold. `pores` at the start of a step, s.
+  void check_gaps(const ElementPores& pores, double start);
+
   const Grid<Dim>& grid_;
   ImplicitFlow<Dim>& flow_;
   MovingSkeleton<Dim>& solid_;
@@ -45,6 +50,7 @@ class FlowOfMovingSolid {
   double end_;         ///< of the run, s
   double tolerance_;   ///< for the relative local error of a step
   long iterations_ = 0;
+  bool warned_of_gap_ = false;
 };
 
 template <int Dim>

@@ -12,6 +12,13 @@ namespace {
 /// once: the rest of the room is for the solid of one that is still there.
 constexpr double largest_gap = 0.9;
 
+/// The largest gap of an element, m3.
+template <int Dim>
+double gap_limit(const Grid<Dim>& grid, const ElementPores& pores, int e) {
+  const double room = pores.porosity[e] * grid.volume[e] + pores.gap[e];
+  return largest_gap * pores.soil_share[e] * room;
+}
+
 /// Adds `missing`, m3, to the air at the sides of an element in equal parts, as far as each side
 /// has room or air. If no side has any, the rest is added in equal parts nevertheless.
 template <int Dim>
@@ -72,6 +79,18 @@ ElementPores element_pores(const Grid<Dim>& grid, std::vector<double> without_so
 }
 
 template <int Dim>
+std::optional<int> element_with_full_gap(const Grid<Dim>& grid, const ElementPores& pores) {
+  constexpr double nearly = 0.95;
+  if (pores.soil_share.empty()) return {};
+  for (int f = 0; f < grid.face_count(); ++f) {
+    const int e = grid.face_left[f];
+    const bool holds_soil = grid.is_outer(f) && pores.soil_share[e] > 0.0;
+    if (holds_soil && std::abs(pores.gap[e]) > nearly * gap_limit(grid, pores, e)) return e;
+  }
+  return {};
+}
+
+template <int Dim>
 MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const std::vector<FaceCondition>& conditions,
                         const MixedState<Dim>& flow, ElementPores pores,
                         const std::vector<double>& face_volume)
@@ -86,8 +105,7 @@ MovedAir<Dim>::MovedAir(const Grid<Dim>& grid, const std::vector<FaceCondition>&
       const int e = grid.face_left[f];
       const bool under_pressure = flow.face_pressure[f] > 0.0;
       const bool water_outside = under_pressure && conditions[f].kind == FaceKind::pressure;
-      const double room = pores.porosity[e] * grid.volume[e] + pores.gap[e];
-      const double limit = largest_gap * pores.soil_share[e] * room;
+      const double limit = gap_limit(grid, pores, e);
       solid_[f] = taken_by_gap(pores.gap[e], face_volume[f], limit, water_outside);
       if (under_pressure) water_[f] = face_volume[f] - solid_[f];
       continue;
@@ -166,11 +184,13 @@ template class MovedAir<2>;
 template class MovedAir<3>;
 template ElementPores element_pores(const Grid<2>&, std::vector<double>, std::vector<double>,
                                     std::vector<double>);
+template std::optional<int> element_with_full_gap(const Grid<2>&, const ElementPores&);
 template std::vector<double> move_liquid(const Grid<2>&, const std::vector<FaceCondition>&,
                                          const SolidMotion&, const MixedState<2>&, ElementPores,
                                          MixedStep<2>&);
 template ElementPores element_pores(const Grid<3>&, std::vector<double>, std::vector<double>,
                                     std::vector<double>);
+template std::optional<int> element_with_full_gap(const Grid<3>&, const ElementPores&);
 template std::vector<double> move_liquid(const Grid<3>&, const std::vector<FaceCondition>&,
                                          const SolidMotion&, const MixedState<3>&, ElementPores,
                                          MixedStep<3>&);

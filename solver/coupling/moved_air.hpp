@@ -3,6 +3,7 @@
 /// Motion of water and air in the pores of moving soil (docs/theory/moving-soil.md, "Air and
 /// soil that moves").
 
+#include <optional>
 #include <vector>
 
 #include "grid/grid.hpp"
@@ -25,6 +26,11 @@ struct ElementPores {
 template <int Dim>
 ElementPores element_pores(const Grid<Dim>& grid, std::vector<double> without_solid,
                            std::vector<double> porosity, std::vector<double> soil_share);
+
+/// An element whose gap is nearly as large as it can be; none if there is none. As the soil moves
+/// on, air comes into its pores, or leaves them.
+template <int Dim>
+std::optional<int> element_with_full_gap(const Grid<Dim>& grid, const ElementPores& pores);
 
 /// Solid and water that cross faces with moving soil, with the porosity and the saturation of the
 /// element that they come from.

@@ -156,6 +156,8 @@ class FlowSolver {
   /// gravity, where pressures may be negative. Throws as `refuse_dry_outflow` does. All ranks have
   /// to call it.
   void check_suction(double time);
+  /// Adds a warning, which the next `take_warnings` returns.
+  void warn(std::string text) { warnings_.push_back(std::move(text)); }
   /// The warnings since the last call.
   [[nodiscard]] std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
@@ -177,8 +179,6 @@ class FlowSolver {
   [[noreturn]] void refuse_dry(int element, double time) const;
   /// Throws NumericalError where the grains in the liquid lock.
   void refuse_locked(double time, const std::vector<double>& concentration) const;
-  /// Adds a warning, which the next `take_warnings` returns.
-  void warn(std::string text) { warnings_.push_back(std::move(text)); }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Grid<Dim>& grid() const { return grid_; }
   [[nodiscard]] int threads() const { return threads_; }

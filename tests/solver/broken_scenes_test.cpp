@@ -151,6 +151,16 @@ TEST(BrokenScenes, RetentionWithoutAirChangesNothingInASettlement) {
             << " m; lowest pressure " << lowest << " Pa\n";
   EXPECT_NEAR(end(run, "settlement_max"), settled, 5e-3 * settled);
   EXPECT_NEAR(lowest, -1.5 * 9810.0, 1.0);
+  EXPECT_EQ(run.outcome.error.find("sunk below the boundary"), std::string::npos);
+}
+
+/// Soil that is ten times softer sinks farther, which its elements cannot follow.
+TEST(BrokenScenes, SaysWhereASurfaceSinksTooFarForItsElements) {
+  const SceneRun run("settling-column", {"soil.specimen.skeleton.young=4e5", "time.end=4e4"});
+  ASSERT_EQ(run.outcome.code, 0) << run.outcome.error;
+  EXPECT_NE(run.outcome.error.find("sunk below the boundary of the mesh in element"),
+            std::string::npos)
+      << run.outcome.error;
 }
 
 /// The boundaries of a soft column of moist clay let no water through, however often a load presses

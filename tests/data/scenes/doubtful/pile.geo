@@ -1,0 +1,22 @@
+// A sheet pile that leans, from the ground into the soil.
+h = 0.2;
+Point(1) = {0, 0, 0, h};
+Point(2) = {2, 0, 0, h};
+Point(3) = {2, 2, 0, h};
+Point(4) = {1.1, 2, 0, h};
+Point(5) = {0, 2, 0, h};
+Point(6) = {1.0, 1.0, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 1};
+Line(6) = {4, 6};
+Curve Loop(1) = {1, 2, 3, 4, 5};
+Plane Surface(1) = {1};
+Curve{6} In Surface{1};
+Physical Surface("specimen") = {1};
+Physical Curve("bottom") = {1};
+Physical Curve("right") = {2};
+Physical Curve("left") = {5};
+Physical Curve("pile") = {6};
