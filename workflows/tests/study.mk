@@ -38,9 +38,13 @@ long_tests := $(addprefix verification_test.,Bank.EndsInItsLastEquilibriumWhereT
     Consolidation.(LargeStrain|OfCamClaySettlesAsItsElementDoes) \
     DryColumn.CollapsesFromTheStartAndRunsOutAboutAsFarAsSand \
     ErodingOedometer.TheSameWithLiquidPoints ErosionAndDeposition.BalanceInDoublePoint ExactInSpace.FloodedDiscInSealedGround \
+    FilterPaths.(UnderAWeirAreTheStreamlines|OfPointsAreThoseTheyWalked) \
+    FlowStartup.LateScaledModeLagsAsLumpedMassesDo \
     Footing.OnSoilOf30DegreesCarriesReissnersLoads \
+    ImplicitTransport.TakesAWeirThroughACentury \
     InfiniteSlope.FailsWhenItsFrictionHasFallenWithItsFines LargeStrain.ReachesItsEndThoughPoresCloseAtTheSurface \
     Levee.KeepsItsMassesWhateverHappens \
+    PaperColumnPoints.TheAnswerDoesNotDependOnTheNumberOfPoints \
     PoissonsRatios/Mandel.PressureInTheMiddleFirstRises/[01] \
     RectangularDam.WithASeepageFaceLetsThroughCharnysDischarge RectangularDam.WithSuctionLetsThroughTheExactDischarge \
     Slope.(HasTheFactorOfGriffithsAndLane|HasTheSameFactorToTheLastBitOnTwoThreads) \
@@ -55,7 +59,7 @@ long_tests := $(addprefix verification_test.,Bank.EndsInItsLastEquilibriumWhereT
     ChangingBoundaries.DepositionEndsAtItsLargestFlux) \
   estimate_test.Estimate.LooksAheadInScenesOfManyKinds \
   $(foreach ranks,4 5,ranks_test_on_$(ranks) same_files_basin_on_$(ranks)) same_files_points_on_5 \
-  $(addprefix near_files_,rest_on_4 suction_on_2 deposition_without_soil_on_4)
+  $(addprefix near_files_,rest_on_4 suction_on_2 deposition_without_soil_on_4 length_without_soil_on_4 points_on_3)
 .PHONY: build-tests test-release
 build-tests: provision
 	@$(call build_preset,release,$(if $(RELEASE_TESTS),,--target programs suffuse-stress suffuse-studies \
