@@ -10,6 +10,25 @@
 namespace suffuse {
 namespace {
 
+bool equal(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+bool same_gradient(const Soil& here, const Soil& there) {
+  return here.porosity_gradient == there.porosity_gradient &&
+         here.porosity_origin == there.porosity_origin;
+}
+
+bool same_retention(const Soil& here, const Soil& there) {
+  const auto& a = here.retention;
+  const auto& b = there.retention;
+  if (a.law != b.law || a.residual_saturation != b.residual_saturation) return false;
+  return a.law == nullptr ||
+         std::ranges::all_of(retention_parameters(), [&](const RetentionParameter& parameter) {
+           return equal(a.parameters.*parameter.value, b.parameters.*parameter.value);
+         });
+}
+
 /// Compares the keys that must be equal in both scenes. Problems name the key of the later scene.
 class Comparison {
  public:
@@ -58,23 +77,10 @@ class Comparison {
     same(table + ".porosity", soil.porosity, other->porosity);
     same(table + ".skeleton_fraction", soil.skeleton_fraction, other->skeleton_fraction);
     same(table + ".grain_density", soil.grain_density, other->grain_density);
-    if (soil.porosity_gradient != other->porosity_gradient ||
-        soil.porosity_origin != other->porosity_origin) {
-      report(table + ".porosity_gradient", "another one");
-    }
-    const auto& a = soil.retention;
-    const auto& b = other->retention;
-    bool same_retention = a.law == b.law && a.residual_saturation == b.residual_saturation;
-    if (same_retention && a.law != nullptr) {
-      for (const RetentionParameter& parameter : retention_parameters()) {
-        same_retention =
-            same_retention && equal(a.parameters.*parameter.value, b.parameters.*parameter.value);
-      }
-    }
-    if (!same_retention) report(table + ".retention", "another one");
+    if (!same_gradient(soil, *other)) report(table + ".porosity_gradient", "another one");
+    if (!same_retention(soil, *other)) report(table + ".retention", "another one");
   }
 
-  static bool equal(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
   void same(const std::string& name, double here, double there) {
     if (equal(here, there)) return;
     problems_.push_back({.where = here_.locate(name),
@@ -103,6 +109,24 @@ class Comparison {
 
 void refuse_other_soils(const SceneDocument& here, const Scene& there, const std::string& folder) {
   Comparison(here, there, folder).run();
+}
+
+std::string key_of_other_state(const Scene& here, const Scene& there) {
+  if (here.gravity != there.gravity) return "gravity";
+  if (here.liquid.density != there.liquid.density) return "liquid.density";
+  for (const Soil& soil : here.soils) {
+    const std::string table = joined("soil", shown_name(soil.region));
+    const Soil* other = there.find_soil(soil.region);
+    if (other == nullptr) return table;
+    if (!equal(soil.porosity, other->porosity)) return table + ".porosity";
+    if (!same_gradient(soil, *other)) return table + ".porosity_gradient";
+    if (!equal(soil.skeleton_fraction, other->skeleton_fraction)) {
+      return table + ".skeleton_fraction";
+    }
+    if (!equal(soil.grain_density, other->grain_density)) return table + ".grain_density";
+    if (!same_retention(soil, *other)) return table + ".retention";
+  }
+  return "";
 }
 
 std::vector<std::string> construction(const Scene& here, const Scene& there,

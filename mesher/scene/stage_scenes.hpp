@@ -1,6 +1,6 @@
 #pragma once
 
-/// A scene that starts from the last state of another one: what must be equal in both.
+/// A scene that takes a state of the run of another one: what must be equal in both.
 
 #include <string>
 #include <vector>
@@ -14,6 +14,11 @@ namespace suffuse {
 /// both, a region may be free in one of them and have a soil in the other.
 /// \param folder  results of the earlier scene, for messages
 void refuse_other_soils(const SceneDocument& here, const Scene& there, const std::string& folder);
+
+/// The key of a scene whose other value would give the state of a run, `there`, another weight,
+/// other pores or other suction: gravity, the liquid's density, or a key of a soil. Empty if all
+/// are equal.
+std::string key_of_other_state(const Scene& here, const Scene& there);
 
 /// A sentence for each region that has soil in one of the scenes and none in the other: `pit is dug
 /// out`, `berm is filled`.

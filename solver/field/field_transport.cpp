@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/errors.hpp"
+#include "common/short_number.hpp"
 #include "grid/parallel.hpp"
 
 namespace suffuse {
@@ -13,6 +15,22 @@ template <int Dim>
 void gain(FinesState<Dim>& state, const std::vector<double>& gained) {
   for (std::size_t e = 0; e < gained.size(); ++e)
     add_liquid<Dim>(state.liquid_volume[e], gained[e]);
+}
+
+/// Throws NumericalError, on all ranks, if an element has no liquid: what it gains is distributed
+/// like its liquid.
+template <int Dim>
+void refuse_dry(const Grid<Dim>& grid, const SoilMap<Dim>& soils,
+                const ElementField<Dim>& liquid_volume, double time) {
+  together(grid.ranks(), [&] {
+    const auto dry = std::ranges::find_if(
+        liquid_volume, [](const auto& liquid) { return !(element_sum<Dim>(liquid) > 0.0); });
+    if (dry == liquid_volume.end()) return;
+    const int e = static_cast<int>(dry - liquid_volume.begin());
+    const std::string key = "soil." + soils.soil_of_element(e).region + ".retention";
+    throw NumericalError(element_text(grid, e) + " holds no water at t = " + short_number(time) +
+                         " s; give " + key + " a residual_saturation");
+  });
 }
 
 /// More steps of explicit transport in a step of the flow take too long.
@@ -98,6 +116,7 @@ template <int Dim>
 std::vector<double> FieldTransport<Dim>::move(double start, const FlowProgress& flow,
                                               SolidExchange<Dim>& exchange) {
   if (settings_.points_move) find_basis();
+  if (!flow.room_gained.empty()) refuse_dry(grid_, soils_, state_.liquid_volume, start);
   const bool implicitly =
       holds_fines(flow.end) && is_implicit(per_time(flow.volumes.liquid, flow.end - start));
   return implicitly ? move_implicitly(start, flow, exchange)

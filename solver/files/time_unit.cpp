@@ -6,6 +6,7 @@
 
 #include "common/closest_name.hpp"
 #include "files/number_text.hpp"
+#include "scene/scene_schema.hpp"
 
 namespace suffuse {
 
@@ -75,6 +76,15 @@ std::string time_words(double seconds, double end, double spacing) {
     if (count > 0.0) text += (text.empty() ? "" : " ") + number_text(count) + " " + unit.name;
   }
   return text;
+}
+
+std::string shown_times(const std::vector<double>& times) {
+  constexpr std::size_t most = 10;
+  std::vector<std::string> texts(times.size());
+  std::ranges::transform(times, texts.begin(), shown_number);
+  if (times.size() <= most) return listed(texts) + " s";
+  return std::to_string(times.size()) + " times from " + texts.front() + " to " + texts.back() +
+         " s: " + texts[0] + ", " + texts[1] + ", " + texts[2] + " ...";
 }
 
 double least_spacing(std::vector<double> times) {

@@ -29,6 +29,8 @@ std::string time_digits(double seconds, const TimeUnit& unit);
 /// A time of a run until `end` (s) in words, "5 h 33 min": to within a hundredth of itself, and so
 /// that times `spacing` (s) apart differ.
 std::string time_words(double seconds, double end, double spacing);
+/// "0, 10 or 20 s"; for many times their number, the first and the last.
+std::string shown_times(const std::vector<double>& times);
 /// The least distance between two of these times, s; infinite for fewer than two.
 double least_spacing(std::vector<double> times);
 

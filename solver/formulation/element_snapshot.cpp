@@ -141,7 +141,7 @@ void add_solid_points(const Grid<Dim>& grid, const Skeleton<Dim>& solid,
     ElementValues<Dim> c_node;
     ElementValues<Dim> f_node;
     for (int j = 0; j <= Dim; ++j) {
-      c_node[j] = liquid.fines_volume[e][j] / liquid.liquid_volume[e][j];
+      c_node[j] = liquid.concentration(e, j);
       f_node[j] = liquid.fines_volume[e][j] / (grid.volume[e] / (Dim + 1));
     }
     solid_fraction.values.push_back(1.0 - n);

@@ -124,7 +124,7 @@ std::vector<ProbeRow> Observations<Dim>::probe_rows(const FlowState<Dim>& flow,
     const auto x = vector_of<Dim>(scene_.output.probes[i].at);
     ElementValues<Dim> concentration;
     for (int j = 0; j <= Dim; ++j) {
-      concentration[j] = liquid.fines_volume[e][j] / liquid.liquid_volume[e][j];
+      concentration[j] = liquid.concentration(e, j);
     }
     const Vector<Dim> flux = flux_at(grid_, flow.face_flux, e, x);
     ProbeRow row;

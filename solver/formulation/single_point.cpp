@@ -113,7 +113,7 @@ PoreState SinglePoint<Dim>::pores_with(std::vector<double> air_volume) const {
     const double pores = air.empty() ? liquid : liquid + air[e];
     result.porosity[e] = pores / this->grid_.volume[e];
     result.water_volume[e] = liquid - fines;
-    result.concentration[e] = fines / liquid;
+    result.concentration[e] = liquid > 0.0 ? fines / liquid : 0.0;
   });
   if (this->soils_.transfers_momentum()) result.flux = this->element_flux_magnitude();
   return result;
@@ -133,8 +133,7 @@ void SinglePoint<Dim>::find_liquid(PointFlows& flows) const {
     const double saturation = air.empty() ? 1.0 : liquid / (liquid + air[e]);
     if (!air.empty()) flows.saturation[e] = saturation;
     ElementValues<Dim> at_nodes;
-    for (int j = 0; j <= Dim; ++j)
-      at_nodes[j] = state.fines_volume[e][j] / state.liquid_volume[e][j];
+    for (int j = 0; j <= Dim; ++j) at_nodes[j] = state.concentration(e, j);
     double held = 0.0;
     for (int p = this->soils_.points_begin(e); p < this->soils_.points_begin(e + 1); ++p) {
       const double c = std::max(0.0, FieldNodes<Dim>::value(at_nodes, points.barycentric[p]));
@@ -219,7 +218,7 @@ HistoryRow SinglePoint<Dim>::history_row(const FlowState<Dim>& flow) const {
   const FinesState<Dim>& state = fines_->state();
   for (const int e : this->grid_.own_elements()) {
     for (int j = 0; j <= Dim; ++j) {
-      const double c = state.fines_volume[e][j] / state.liquid_volume[e][j];
+      const double c = state.concentration(e, j);
       least = std::min(least, c);
       if (!(c > most)) continue;
       most = c;

@@ -20,6 +20,7 @@
 #include "results/reader.hpp"
 #include "results/vtkhdf.hpp"
 #include "scene/scene_schema.hpp"
+#include "scene/stage_scenes.hpp"
 #include "tools/strength_states.hpp"
 
 namespace suffuse {
@@ -57,16 +58,6 @@ void refuse_without_strength(const SceneDocument& document) {
   throw InputError(InputProblem{"", option, found, expected});
 }
 
-/// `0, 10, 20 s`; for many times their number, the first and the last.
-std::string shown_times(const std::vector<double>& times) {
-  constexpr std::size_t most = 10;
-  std::vector<std::string> texts(times.size());
-  std::ranges::transform(times, texts.begin(), shown_number);
-  if (times.size() <= most) return listed(texts) + " s";
-  return std::to_string(times.size()) + " times from " + texts.front() + " to " + texts.back() +
-         " s: " + texts[0] + ", " + texts[1] + ", " + texts[2] + " ...";
-}
-
 /// Numbers of the requested snapshots.
 std::vector<std::size_t> chosen_snapshots(const ResultsReader& results, const std::string& time) {
   const std::vector<double>& times = results.times();
@@ -90,26 +81,47 @@ std::vector<std::size_t> chosen_snapshots(const ResultsReader& results, const st
   return chosen;
 }
 
+/// The head, m, of the water outside of a boundary at a time, s; `results`: of its run, which knows
+/// the levels of reservoirs. None if the boundary has no head.
+std::optional<double> head_outside(const Scene& scene, const std::string& boundary, double time,
+                                   const ResultsReader& results) {
+  const auto b = std::ranges::find(scene.boundaries, boundary, &BoundaryCondition::on);
+  if (b == scene.boundaries.end() || !b->head) return {};
+  if (!b->is_reservoir()) return b->head->value(time);
+  for (const auto& [name, table] : results.boundaries()) {
+    const std::vector<double>& times = table.column("t");
+    const auto row = std::ranges::lower_bound(times, time * (1.0 - 1e-9));
+    if (name == boundary && row != times.end()) return table.column("level")[row - times.begin()];
+  }
+  return {};
+}
+
 /// Warns of boundaries whose head in the case, which loads the soil, is not that of the run at a
-/// time, s, which decides the pore pressures. Levels of reservoirs are results.
-void warn_of_other_heads(const Scene& scene, const Scene& of_run, double time) {
-  for (const BoundaryCondition& b : scene.boundaries) {
-    const auto there = std::ranges::find(of_run.boundaries, b.on, &BoundaryCondition::on);
-    if (there == of_run.boundaries.end() || !b.head || !there->head) continue;
-    if (b.is_reservoir() || there->is_reservoir()) continue;
-    const double head = b.head->value(time);
-    const double head_there = there->head->value(time);
-    if (std::abs(head - head_there) <= noticed_difference * (1.0 + std::abs(head))) continue;
+/// time, s, which decides the pore pressures.
+void warn_of_other_heads(const Scene& scene, const Scene& of_run, double time,
+                         const ResultsReader& results) {
+  std::set<std::string> names;
+  for (const auto* of : {&scene, &of_run})
+    for (const BoundaryCondition& b : of->boundaries) names.insert(b.on);
+  const auto place = [](std::optional<double> head) {
+    return head ? "at " + shown_number(*head) + " m" : "at no level";
+  };
+  for (const std::string& name : names) {
+    const std::optional<double> head = head_outside(scene, name, time, results);
+    const std::optional<double> there = head_outside(of_run, name, time, results);
+    if (head && there ? std::abs(*head - *there) <= noticed_difference * (1.0 + std::abs(*head))
+                      : head == there)
+      continue;
     std::fprintf(stderr,
-                 "suffuse-solver: warning: t = %s s: the water outside of boundary %s stands at %s "
-                 "m in the case, and at %s m in the run that the pore pressures are from: the "
-                 "factor is of soil with two levels at once\n",
-                 shown_number(time).c_str(), shown_value(b.on).c_str(), shown_number(head).c_str(),
-                 shown_number(head_there).c_str());
+                 "suffuse-solver: warning: t = %s s: the water outside of boundary %s stands %s in "
+                 "the case, and %s in the run that the pore pressures are from: the factor is of "
+                 "soil with two levels at once\n",
+                 shown_number(time).c_str(), shown_value(name).c_str(), place(head).c_str(),
+                 place(there).c_str());
   }
 }
 
-/// Checks that the states have the same points, and that porosities mean the same shares of fines.
+/// Checks that the states have the same points, and that their numbers mean the same soil.
 template <int Dim>
 void refuse_other_soil(const Case<Dim>& c, const ResultsReader& results, const Case<Dim>& other) {
   if (!have_same_points(c, other)) {
@@ -117,20 +129,10 @@ void refuse_other_soil(const Case<Dim>& c, const ResultsReader& results, const C
                   "a run on those of " + c.document.path +
                       ": the keys of [geometry], [mesh] and points.solid_per_element as there");
   }
-  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  for (const Soil& soil : c.document.scene.soils) {
-    const Soil* there = other.document.scene.find_soil(soil.region);
-    if (there && same(there->skeleton_fraction, soil.skeleton_fraction) &&
-        same(there->porosity, soil.porosity) &&
-        there->porosity_gradient == soil.porosity_gradient &&
-        there->porosity_origin == soil.porosity_origin) {
-      continue;
-    }
-    refuse_option("--state",
-                  shown_value(results.folder()) + ", whose soil " + shown_value(soil.region) +
-                      " had another porosity or skeleton fraction at the start",
-                  "a run of soils with those of " + c.document.path);
-  }
+  const std::string key = key_of_other_state(c.document.scene, other.document.scene);
+  if (key.empty()) return;
+  refuse_option("--state", shown_value(results.folder()) + ", whose " + key + " is another one",
+                "a run with that of " + c.document.path);
 }
 
 template <int Dim>
@@ -421,7 +423,7 @@ void run_strength_reduction(const Case<Dim>& c, const StrengthReductionOptions& 
     std::string last;  // time with a factor of at least 1, s
     for (const std::size_t index : chosen_snapshots(results, options.time)) {
       const std::string time = shown_number(results.times()[index]);
-      warn_of_other_heads(c.document.scene, of_run.document.scene, results.times()[index]);
+      warn_of_other_heads(c.document.scene, of_run.document.scene, results.times()[index], results);
       const std::optional<double> factor =
           table.add(run_state(results, of_run, index, grid, soils, options.threads),
                     options.state + " at t = " + time + " s");

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -13,7 +15,9 @@
 #include "common/hdf5_io.hpp"
 #include "files/number_text.hpp"
 #include "mesher/temporary_folder.hpp"
+#include "results/reader.hpp"
 #include "results/vtkhdf.hpp"
+#include "scene/scene_schema.hpp"
 #include "solver/csv_columns.hpp"
 #include "test_paths.hpp"
 
@@ -738,8 +742,34 @@ TEST(StrengthTable, RefusesAStateOfOtherPointsOrPores) {
   w.mesh("loose", changed("porosity = 0.35", "porosity = 0.3"));
   EXPECT_EQ(
       w.refusal("loose.case.h5 --strength-reduction --state moving.results"),
-      "--state: got \"moving.results\", whose soil \"lower\" had another porosity or skeleton "
-      "fraction at the start; expected a run of soils with those of loose.toml\n");
+      "--state: got \"moving.results\", whose soil.lower.porosity is another one; expected a run "
+      "with that of loose.toml\n");
+}
+
+/// A state without the retention of the case had the whole suction: a factor of 2.9 for 1.4.
+TEST(StrengthTable, RefusesAStateOfAnotherWeightOrSuction) {
+  const Workshop w;
+  w.folder().write("slope.geo", slope_geometry);
+  Slope slope{.mesh = 4.0, .cohesion = 1.5e4, .water_level = 10.0};
+  slope.more = "[[boundary]]\non = \"slope\"\nhead = 10.0\n";
+  const std::string scene = slope_scene(slope);
+  w.mesh("run", scene);
+  w.solve("run");
+  const std::vector<std::array<std::string, 3>> changes{
+      {"gravity", "-9.81", "-1.62"},
+      {"liquid.density", "density = 1000", "density = 1030"},
+      {"soil.fill.grain_density", "grain_density = 2700", "grain_density = 2600"},
+      {"soil.fill.retention", "alpha = 10.0", "alpha = 1.0"},
+      {"soil.fill.retention", R"(retention = {model = "gardner", alpha = 10.0})", ""},
+      {"soil.fill.skeleton_fraction", "skeleton_fraction = 0.7", "skeleton_fraction = 0.6"}};
+  for (const auto& [key, from, to] : changes) {
+    std::string other = scene;
+    other.replace(other.find(from), from.size(), to);
+    w.mesh("other", other);
+    EXPECT_EQ(w.refusal("other.case.h5 --strength-reduction --state run.results"),
+              "--state: got \"run.results\", whose " + key +
+                  " is another one; expected a run with that of other.toml\n");
+  }
 }
 
 TEST(StrengthTable, RefusesSoilWithoutStrengthAndSoilThatNothingHolds) {
@@ -868,6 +898,50 @@ TEST(StrengthTable, WarnsOfALevelThatIsNotThatOfTheRun) {
             "suffuse-solver: warning: t = 10 s: the water outside of boundary \"slope\" stands at "
             "10 m in the case, and at 8 m in the run that the pore pressures are from: the factor "
             "is of soil with two levels at once\n");
+}
+
+/// The level of a reservoir falls in a run with a rigid skeleton. The head of the case loads the
+/// soil, and a boundary without one does not.
+TEST(StrengthTable, WarnsOfALevelThatIsNotThatOfTheReservoir) {
+  const Workshop w;
+  w.folder().write("slope.geo", slope_geometry);
+  const std::string scene = slope_scene({.mesh = 4.0, .cohesion = 3e4, .water_level = 10.0});
+  const auto with = [&](const std::string& slope, const std::string& back) {
+    std::string text = scene + "[[boundary]]\non = \"slope\"\n" + slope;
+    const std::string fixed = "on = \"back\"\n";
+    return text.insert(text.find(fixed) + fixed.size(), back);
+  };
+  std::string rigid = with("head = 10.0\nreservoir_area = 2.0\n", "head = 1.0\n");
+  const auto erase = [&](const std::string& from, const std::string& to) {
+    const std::size_t start = rigid.find(from);
+    rigid.erase(start, rigid.find(to, start) - start);
+  };
+  erase("[soil.fill.skeleton]", "[[boundary]]");
+  erase("[[boundary]]", "[[boundary]]\non = \"back\"");
+  erase("fix = \"normal\"", "[[boundary]]");
+  rigid.replace(rigid.find("1e-5"), 4, "1e-2");
+  w.mesh("reservoir", rigid);
+  w.solve("reservoir");
+  const auto levels = [&](const std::string& slope, const std::string& back) {
+    w.mesh("case", with(slope, back));
+    EXPECT_NE(w.table("case", "--quiet --state reservoir.results"), "");
+    std::string text = w.errors();
+    std::string found;
+    for (auto at = text.find("boundary \""); at != std::string::npos;
+         at = text.find("boundary \"", at + 1)) {
+      found += text.substr(at, text.find(" in the run", at) - at) + '\n';
+    }
+    return found;
+  };
+  const auto tables = read_tables(w.folder().file("reservoir.results/boundaries.csv"), "boundary");
+  const auto slope = std::ranges::find(tables, "slope", &NamedTable::name);
+  ASSERT_NE(slope, tables.end());
+  const std::string level = shown_number(slope->table.column("level").back());
+  EXPECT_LT(std::stod(level), 9.95);
+  EXPECT_EQ(levels("head = 10.0\n", "head = 1.0\n"),
+            "boundary \"slope\" stands at 10 m in the case, and at " + level + " m\n");
+  EXPECT_EQ(levels("head = " + level + "\n", ""),
+            "boundary \"back\" stands at no level in the case, and at 1 m\n");
 }
 
 /// A law without a strength is elastic in trials: soil that hardens would settle under the loads of
