@@ -332,9 +332,10 @@ class Plausibility : private PlausibilityBase<Dim> {
     warn(joined(table_of(soil), "retention"),
          "none, and a suction of " + short_number(worst.height) + " m of water at " +
              place_text<Dim>(worst.at) + ": " + worst.cause +
-             ". Without a retention law the soil stays full of water there; real soil drains, and "
-             "conducts less. Up to " +
-             short_number(unnoticed_suction) + " m are usual");
+             ". Without a retention law the soil stays full of water there" +
+             (this->has_free_water() ? ", as do regions without soil, whose water loads it" : "") +
+             "; real soil drains, and conducts less. Up to " + short_number(unnoticed_suction) +
+             " m are usual");
   }
 };
 

@@ -246,6 +246,20 @@ TEST(SuctionWarning, OfTheWaterLevelAtTheStart) {
             Warnings{});
 }
 
+TEST(SuctionWarning, NamesFreeWaterAboveTheLevelToo) {
+  const auto layer = [](int row) { return row > 5 ? "free_above" : "specimen"; };
+  const Warnings found =
+      suction_warnings(scene({"gravity=[0, -10]", "time.scheme=implicit", "initial.water_level=1",
+                              "soil.specimen.skeleton={law=\"elastic\", young=1e7, poisson=0.3}"},
+                             column + size, ""),
+                       grid(4, 8, 1.0, 4.0, layer));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found.front().find("stays full of water there, as do regions without soil, whose "
+                               "water loads it; real soil drains"),
+            std::string::npos)
+      << found.front();
+}
+
 TEST(SuctionWarning, OfHeadsThatNoneExceeds) {
   const std::vector<std::string> steady{"initial.flow=steady"};
   const std::string low = "[[boundary]]\non = \"bottom\"\nhead = [[0, 1], [1, 3]]\n";
