@@ -22,12 +22,12 @@ class WaterLoads : private PlausibilityBase<Dim> {
 
   std::vector<std::string> run() {
     if (!scene_.moves() || this->has_free_water() || !has_gravity(scene_.gravity)) return {};
-    const std::vector<Ground> ground = ground_that_moves();
+    const std::vector<Ground> ground = ground_that_moves(Base::nearly_upright);
     for (const BoundaryCondition& b : scene_.boundaries) {
       check_pressure(b, ground);
       check_traction(b, ground);
     }
-    check_bare_ground(ground);
+    check_bare_ground(ground_that_moves(-Base::nearly_upright));
     return std::move(warnings_);
   }
 
@@ -50,7 +50,8 @@ class WaterLoads : private PlausibilityBase<Dim> {
     return soil && soil->skeleton.moves();
   }
 
-  [[nodiscard]] std::vector<Ground> ground_that_moves() const {
+  /// \param least_up  upward part of the unit normals; below 0 for upright faces too
+  [[nodiscard]] std::vector<Ground> ground_that_moves(double least_up) const {
     const FaceTable<Dim> faces(mesh_);
     const Vector<Dim> up = -Eigen::Map<const Vector<Dim>>(scene_.gravity.data()).normalized();
     std::set<Face> of_slits;
@@ -64,7 +65,7 @@ class WaterLoads : private PlausibilityBase<Dim> {
         for (const int i : face) centre += mesh_.nodes[i] / Dim;
         Vector<Dim> normal = face_normal<Dim>(mesh_, face).normalized();
         if (normal.dot(element_centroid(mesh_, e) - centre) > 0.0) normal = -normal;
-        if (normal.dot(up) < Base::nearly_upright) continue;
+        if (normal.dot(up) < least_up) continue;
         ground.push_back({face_key<Dim>(face), centre});
       }
     }
