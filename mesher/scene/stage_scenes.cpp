@@ -115,7 +115,7 @@ std::string key_of_other_state(const Scene& here, const Scene& there) {
   if (here.gravity != there.gravity) return "gravity";
   if (here.liquid.density != there.liquid.density) return "liquid.density";
   for (const Soil& soil : here.soils) {
-    const std::string table = joined("soil", shown_name(soil.region));
+    std::string table = joined("soil", shown_name(soil.region));
     const Soil* other = there.find_soil(soil.region);
     if (other == nullptr) return table;
     if (!equal(soil.porosity, other->porosity)) return table + ".porosity";
