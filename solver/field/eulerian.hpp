@@ -18,7 +18,7 @@ struct FinesState {
   ElementField<Dim> liquid_volume;
   ElementField<Dim> fines_volume;
 
-  /// Of the liquid at a node of an element's field; 0 without liquid.
+  /// Concentration of fines in the liquid at a node of an element's field; 0 without liquid.
   [[nodiscard]] double concentration(int element, int node) const {
     const double liquid = liquid_volume[element][node];
     return liquid > 0.0 ? fines_volume[element][node] / liquid : 0.0;

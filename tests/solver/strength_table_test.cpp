@@ -746,7 +746,8 @@ TEST(StrengthTable, RefusesAStateOfOtherPointsOrPores) {
       "with that of loose.toml\n");
 }
 
-/// A state without the retention of the case had the whole suction: a factor of 2.9 for 1.4.
+/// Where the soil of the case has a retention and that of the run has none, the whole suction would
+/// hold the soil: the factor was 2.9 instead of 1.4.
 TEST(StrengthTable, RefusesAStateOfAnotherWeightOrSuction) {
   const Workshop w;
   w.folder().write("slope.geo", slope_geometry);

@@ -271,8 +271,8 @@ TEST(Bank, SlidesIntoAir) {
   EXPECT_NEAR(now.ledger.solid + now.ledger.eroded, start.solid, 1e-12 * start.solid);
 }
 
-/// With a friction of 25 degrees at the end, this bank of coarse elements becomes flatter, and
-/// rests in equilibrium.
+/// If its friction falls to 25 degrees only, this bank of coarse elements finds an equilibrium with
+/// a flatter slope. It falls to 15 degrees here.
 TEST(Bank, EndsInItsLastEquilibriumWhereTheSceneSaysSo) {
   Scene scene = bank();
   scene.soils[0].skeleton.friction = FinesFunction({{1.0, 33.0}, {0.0, 15.0}});
