@@ -8,6 +8,7 @@
 #include "common/closest_name.hpp"
 #include "common/short_number.hpp"
 #include "mesh/faces.hpp"
+#include "mesh/mesh_parts.hpp"
 #include "mesh/place_text.hpp"
 #include "mesh/slit.hpp"
 #include "mesh/water_line.hpp"
@@ -27,6 +28,11 @@ constexpr auto needs_three = "three numbers: the mesh is three-dimensional";
 
 std::string in_quotes(const std::string& name) {
   return '"' + name + '"';
+}
+
+/// Whether a condition decides at which level steady flow under gravity stands.
+bool sets_level(const BoundaryCondition& b) {
+  return b.head || b.pressure || b.seepage_face || b.rain;
 }
 
 template <int Dim>
@@ -55,6 +61,7 @@ class SceneCheck {
     check_regions();
     check_boundaries();
     check_walls();
+    check_levels();
     check_explicit_heads();
     check_outputs();
     return std::move(problems_);
@@ -248,6 +255,47 @@ class SceneCheck {
       check_inner("wall[" + std::to_string(i) + "].on", document_.scene.walls[i].on, "a curve",
                   curves_);
     }
+  }
+
+  /// Steady flow under gravity stands at no certain level in a part of the mesh that walls cut off
+  /// from every boundary that sets one.
+  void check_levels() {
+    const Scene& scene = document_.scene;
+    if (scene.initial_flow != InitialFlow::steady || !has_gravity(scene.gravity)) return;
+    const std::vector<int> parts = mesh_parts<Dim>(mesh_, sides_of_conducting_walls());
+    std::set<int> with_level;
+    for (const BoundaryCondition& condition : scene.boundaries) {
+      if (!sets_level(condition)) continue;
+      const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);
+      if (set == mesh_.boundaries.end()) return;  // reported already
+      for (const auto& face : set->faces) with_level.insert(parts[face.front()]);
+    }
+    if (with_level.empty()) return;  // refused without a mesh
+    for (int e = 0; e < mesh_.element_count(); ++e) {
+      const std::string& region = mesh_.region_names[mesh_.element_region[e]];
+      const bool has_water = scene.find_soil(region) != nullptr || scene.is_free_water(region);
+      if (!has_water || with_level.contains(parts[mesh_.elements[e].front()])) continue;
+      report(
+          "initial.flow",
+          "\"steady\" where nothing sets the level of the water in the part of the mesh around " +
+              place_text<Dim>(element_centroid(mesh_, e)),
+          "a boundary with a head, pressure, seepage_face or rain, or a well with a head or "
+          "seepage_face, in each part that walls cut off, a wall with a conductance, or flow = "
+          "\"rest\" with initial.water_level");
+      return;
+    }
+  }
+
+  [[nodiscard]] std::vector<FacePair<Dim>> sides_of_conducting_walls() const {
+    std::vector<FacePair<Dim>> sides;
+    for (const Wall& wall : document_.scene.walls) {
+      const auto set = std::ranges::find(mesh_.boundaries, wall.on, &BoundarySet<Dim>::name);
+      if (!(wall.conductance > 0.0) || set == mesh_.boundaries.end()) continue;
+      for (std::size_t i = 0; i + 1 < set->faces.size(); i += 2) {
+        sides.push_back({set->faces[i], set->faces[i + 1]});
+      }
+    }
+    return sides;
   }
 
   /// Refuses heads that pass a face, which changes the kind of its condition: the explicit scheme

@@ -19,6 +19,7 @@ struct InnerNames {
 /// Finds every way in which the names and values of a scene do not fit the mesh:
 /// - soils without a region; regions without a soil that are not free water;
 /// - boundaries, walls and wells that do not exist; two conditions on one face;
+/// - steady flow under gravity in a part of the mesh where nothing sets the level of the water;
 /// - heads that the explicit scheme cannot follow;
 /// - probes and sections outside the mesh;
 /// - an initial porosity that leaves (0, 1 - n_C] somewhere in its region;

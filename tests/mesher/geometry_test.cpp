@@ -895,6 +895,27 @@ TEST_F(UserFile, WithCurvesInsideIsWhatItIsWithoutWhereNothingNamesThem) {
   EXPECT_EQ(geometry.notes.size(), 3U);
 }
 
+/// The pressure of steady water beyond a wall was any constant, without a word.
+TEST_F(UserFile, EachPartThatWallsCutOffNeedsALevelForASteadyStart) {
+  const auto build = [&](const std::string& more) {
+    build_geometry_of<2>(
+        parse_scene(scene_text("[geometry]\nfile = \"divided.geo\"\n[mesh]\nsize = 0.5\n",
+                               "[[boundary]]\non = \"top_left\"\nhead = 2.0\n" + more),
+                    folder_.file("scene.toml"),
+                    {"gravity=[0.0, -9.81]", "initial.flow=steady", "time.scheme=implicit"}));
+  };
+  const std::string upper = "[[wall]]\non = \"upper\"\n";
+  const std::string lower = "[[wall]]\non = \"lower\"\n";
+  const std::string message = refusal([&] { build(upper + lower); });
+  const std::string found =
+      "initial.flow: got \"steady\" where nothing sets the level of the water in the part of the "
+      "mesh around (1.";
+  EXPECT_NE(message.find(found), std::string::npos) << message;
+  EXPECT_NO_THROW(build(upper));
+  EXPECT_NO_THROW(build(upper + lower + "conductance = 1e-9\n"));
+  EXPECT_NO_THROW(build(upper + lower + "[[boundary]]\non = \"top_right\"\nrain = 1e-7\n"));
+}
+
 TEST_F(UserFile, WrongNamesOfWallsAndWellsAreRefused) {
   const auto message = [&](const std::string& more, const std::string& size = "0.25") {
     return refusal([&] { build_file("sheet_pile.geo", size, more); });
