@@ -1,9 +1,11 @@
 /// A levee in two dimensions with many processes at once: wetting and draining, a flood that rises
 /// and falls, seepage faces that open and close, rain, a well, erosion by two laws. A levee of soil
-/// that moves, in a steady flow.
+/// that moves: in a steady flow, and in other axes.
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -180,21 +182,25 @@ TEST(Levee, HasTheSameBitsOnTwoThreads) {
   }
 }
 
+/// The levee of the example that slides, on coarse elements.
+Case<2> sliding_levee(std::vector<std::string> overrides) {
+  const std::string folder = test::source_folder() + "/workflows/examples/slide/";
+  std::ifstream scene(folder + "slide.toml");
+  overrides.insert(overrides.end(), {"geometry.file=\"" + folder + "levee.geo\"", "mesh.size=1.0"});
+  return model::case_of<2>(std::string(std::istreambuf_iterator<char>(scene), {}), overrides);
+}
+
 /// A second under a level that stands for ever, with tan(friction) and cohesion divided by
 /// `reduction`.
 HistoryRow after_a_second(double reduction) {
-  const std::string folder = test::source_folder() + "/workflows/examples/slide/";
-  std::ifstream scene(folder + "slide.toml");
   const double radian = std::numbers::pi / 180.0;
   const double friction = std::atan(std::tan(34.0 * radian) / reduction) / radian;
   const std::string skeleton = "soil.levee.skeleton.";
-  model::SceneRun<2> run(
-      std::string(std::istreambuf_iterator<char>(scene), {}),
-      {"geometry.file=\"" + folder + "levee.geo\"", "mesh.size=1.0", "boundary[0].head=2.6",
-       "initial.flow=\"steady\"", "time.end=1.0", skeleton + "friction=" + std::to_string(friction),
-       skeleton + "cohesion=" + std::to_string(4e3 / reduction)});
-  run.run_to(1.0);
-  return run.history();
+  model::ModelRun run(
+      sliding_levee({"boundary[0].head=2.6", "initial.flow=\"steady\"", "time.end=1.0",
+                     skeleton + "friction=" + std::to_string(friction),
+                     skeleton + "cohesion=" + std::to_string(4e3 / reduction)}));
+  return run.run({1.0}).states.back().history;
 }
 
 // Its factor of safety by strength reduction is 1.57.
@@ -205,6 +211,42 @@ TEST(Levee, StandsInItsSteadyFlowAsItsFactorSays) {
   EXPECT_LT(stands.displacement_max, 1e-5);
   EXPECT_NEAR(stands.flux_out / stands.flux_in, 1.0, 1e-3);
   EXPECT_GT(after_a_second(1.65).inertia, 0.0);
+}
+
+/// The same case in other axes: turned by `angle` about the origin, then lifted against its
+/// gravity.
+Case<2> in_other_axes(Case<2> c, double angle, double lift) {
+  const Eigen::Rotation2Dd turn(angle);
+  const Vector<2> up = turn * Vector<2>(0.0, 1.0);
+  for (Vector<2>& x : c.mesh.nodes) x = turn * x + lift * up;
+  Scene& scene = c.document.scene;
+  for (int d = 0; d < 2; ++d) scene.gravity[d] = -9.81 * up[d];
+  *scene.water_level += lift;
+  for (BoundaryCondition& b : scene.boundaries) {
+    if (!b.head) continue;
+    for (auto& [t, head] : b.head->knots) head += lift;
+  }
+  return c;
+}
+
+/// A flood that rises in unsaturated soil that erodes and moves knows no axes.
+TEST(Levee, IsTheSameInOtherAxes) {
+  constexpr double end_of_rise = 4000.0;
+  const Case<2> upright =
+      sliding_levee({"boundary[0].head=[[0.0, -0.3], [4000.0, 2.6]]", "time.end=4000.0"});
+  const auto run = [&](Case<2> c) {
+    model::ModelRun model(std::move(c));
+    const auto state = model.run({end_of_rise}).states.back();
+    EXPECT_LT(model.worst_residual(), 1e-12);
+    return std::array{state.history.flux_in, state.history.displacement_max, state.ledger.water,
+                      state.ledger.fines_out + state.ledger.fines};
+  };
+  const auto expected = run(upright);
+  const auto found = run(in_other_axes(upright, 0.65, 50.0));
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_GT(expected[k], 0.0);
+    EXPECT_NEAR(found[k], expected[k], 1e-6 * expected[k]);
+  }
 }
 
 }  // namespace levee_test
