@@ -8,7 +8,7 @@
 #include "common/closest_name.hpp"
 #include "common/short_number.hpp"
 #include "mesh/faces.hpp"
-#include "mesh/mesh_parts.hpp"
+#include "mesh/mesh_pieces.hpp"
 #include "mesh/place_text.hpp"
 #include "mesh/slit.hpp"
 #include "mesh/water_line.hpp"
@@ -257,24 +257,24 @@ class SceneCheck {
     }
   }
 
-  /// Steady flow under gravity stands at no certain level in a part of the mesh that walls cut off
+  /// Steady flow under gravity stands at no certain level in a piece of the mesh that walls cut off
   /// from every boundary that sets one.
   void check_levels() {
     const Scene& scene = document_.scene;
     if (scene.initial_flow != InitialFlow::steady || !has_gravity(scene.gravity)) return;
-    const std::vector<int> parts = mesh_parts<Dim>(mesh_, sides_of_conducting_walls());
+    const std::vector<int> pieces = mesh_pieces<Dim>(mesh_, sides_of_conducting_walls());
     std::set<int> with_level;
     for (const BoundaryCondition& condition : scene.boundaries) {
       if (!sets_level(condition)) continue;
       const auto set = std::ranges::find(mesh_.boundaries, condition.on, &BoundarySet<Dim>::name);
       if (set == mesh_.boundaries.end()) return;  // reported already
-      for (const auto& face : set->faces) with_level.insert(parts[face.front()]);
+      for (const auto& face : set->faces) with_level.insert(pieces[face.front()]);
     }
     if (with_level.empty()) return;  // refused without a mesh
     for (int e = 0; e < mesh_.element_count(); ++e) {
       const std::string& region = mesh_.region_names[mesh_.element_region[e]];
       const bool has_water = scene.find_soil(region) != nullptr || scene.is_free_water(region);
-      if (!has_water || with_level.contains(parts[mesh_.elements[e].front()])) continue;
+      if (!has_water || with_level.contains(pieces[mesh_.elements[e].front()])) continue;
       report(
           "initial.flow",
           "\"steady\" where nothing sets the level of the water in the part of the mesh around " +

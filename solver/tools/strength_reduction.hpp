@@ -22,8 +22,8 @@ struct StrengthReductionLimits {
   /// Displacements in a trial above this multiple of the elastic ones mean failure.
   double runaway = 200.0;
   /// The tolerance is small, because residuals are relative to forces at a larger strain than that
-  /// of trials. A trial takes a smaller tolerance where this one would still accept a force of 1 %
-  /// of an element's weight.
+  /// of trials. If it would accept forces of 1 % of an element's weight, a trial takes a smaller
+  /// one.
   NewtonLimits newton{.max_iterations = 60, .tolerance = 1e-9};
   /// Iterations of a trial in pseudo-time, after those of Newton's method.
   int settling_iterations = 600;

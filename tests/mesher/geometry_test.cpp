@@ -895,7 +895,7 @@ TEST_F(UserFile, WithCurvesInsideIsWhatItIsWithoutWhereNothingNamesThem) {
   EXPECT_EQ(geometry.notes.size(), 3U);
 }
 
-/// The pressure of steady water beyond a wall was any constant, without a word.
+/// Beyond walls where nothing set a level, steady water had any pressure, and nothing said so.
 TEST_F(UserFile, EachPartThatWallsCutOffNeedsALevelForASteadyStart) {
   const auto build = [&](const std::string& more) {
     build_geometry_of<2>(

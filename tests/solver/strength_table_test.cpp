@@ -746,8 +746,8 @@ TEST(StrengthTable, RefusesAStateOfOtherPointsOrPores) {
       "with that of loose.toml\n");
 }
 
-/// Where the soil of the case has a retention and that of the run has none, the whole suction would
-/// hold the soil: the factor was 2.9 instead of 1.4.
+/// The soil of the case has a retention, that of the run has none. The whole suction of the run
+/// then held the soil: the factor was 2.9 instead of 1.4. Such a state is refused.
 TEST(StrengthTable, RefusesAStateOfAnotherWeightOrSuction) {
   const Workshop w;
   w.folder().write("slope.geo", slope_geometry);

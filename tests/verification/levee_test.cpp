@@ -213,8 +213,8 @@ TEST(Levee, StandsInItsSteadyFlowAsItsFactorSays) {
   EXPECT_GT(after_a_second(1.65).inertia, 0.0);
 }
 
-/// The same case in other axes: turned by `angle` about the origin, then lifted against its
-/// gravity.
+/// The case with its mesh and its gravity turned by `angle` about the origin. The mesh and all
+/// levels of water are then raised by `lift`, m.
 Case<2> in_other_axes(Case<2> c, double angle, double lift) {
   const Eigen::Rotation2Dd turn(angle);
   const Vector<2> up = turn * Vector<2>(0.0, 1.0);
@@ -229,7 +229,7 @@ Case<2> in_other_axes(Case<2> c, double angle, double lift) {
   return c;
 }
 
-/// A flood that rises in unsaturated soil that erodes and moves knows no axes.
+/// A flood in unsaturated soil that erodes and moves has the same results in other axes.
 TEST(Levee, IsTheSameInOtherAxes) {
   constexpr double end_of_rise = 4000.0;
   const Case<2> upright =

@@ -1,4 +1,4 @@
-#include "mesh/mesh_parts.hpp"
+#include "mesh/mesh_pieces.hpp"
 
 #include <numeric>
 
@@ -28,18 +28,18 @@ class NodeSets {
 }  // namespace
 
 template <int Dim>
-std::vector<int> mesh_parts(const Mesh<Dim>& mesh, const std::vector<FacePair<Dim>>& joined) {
+std::vector<int> mesh_pieces(const Mesh<Dim>& mesh, const std::vector<FacePair<Dim>>& joined) {
   NodeSets sets(mesh.node_count());
   for (const auto& element : mesh.elements) {
     for (const int node : element) sets.unite(node, element.front());
   }
   for (const auto& [one, other] : joined) sets.unite(one.front(), other.front());
-  std::vector<int> parts(mesh.nodes.size());
-  for (int node = 0; node < mesh.node_count(); ++node) parts[node] = sets.root(node);
-  return parts;
+  std::vector<int> pieces(mesh.nodes.size());
+  for (int node = 0; node < mesh.node_count(); ++node) pieces[node] = sets.root(node);
+  return pieces;
 }
 
-template std::vector<int> mesh_parts<2>(const Mesh<2>&, const std::vector<FacePair<2>>&);
-template std::vector<int> mesh_parts<3>(const Mesh<3>&, const std::vector<FacePair<3>>&);
+template std::vector<int> mesh_pieces<2>(const Mesh<2>&, const std::vector<FacePair<2>>&);
+template std::vector<int> mesh_pieces<3>(const Mesh<3>&, const std::vector<FacePair<3>>&);
 
 }  // namespace suffuse
